@@ -1,0 +1,200 @@
+#include "array.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "thing_kin/core/error.hpp"
+#include "thing_kin/core/tolerance.hpp"
+
+namespace thing_kin::python {
+
+namespace {
+
+// A conversion that loses nothing a user could have meant: numbers that are real, of any width.
+py::array to_float64(py::handle argument, const char* name) {
+  py::array array;
+  try {
+    array = py::module_::import("numpy").attr("asarray")(argument).cast<py::array>();
+  } catch (py::error_already_set& error) {
+    if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) {
+      throw;
+    }
+    throw InvalidArgument(name, py::str(py::type::of(argument).attr("__name__")),
+                          "an array of real numbers");
+  }
+  const char kind = array.dtype().kind();
+  if (kind != 'f' && kind != 'i' && kind != 'u') {
+    throw InvalidArgument(name, "dtype " + std::string(py::str(array.dtype())), "real numbers");
+  }
+  return py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(array);
+}
+
+std::string shape_text(const py::ssize_t* shape, py::ssize_t dimensions, const char* lead = "") {
+  std::ostringstream out;
+  out << '(' << lead;
+  for (py::ssize_t i = 0; i < dimensions; ++i) {
+    out << shape[i] << (i + 1 < dimensions ? ", " : "");
+  }
+  out << (dimensions == 1 && *lead == '\0' ? ",)" : ")");
+  return out.str();
+}
+
+// NaN and inf both make x - x a NaN, and the sum vectorises.
+bool all_finite(const double* data, py::ssize_t count) {
+  double sum = 0.0;
+  for (py::ssize_t i = 0; i < count; ++i) {
+    sum += data[i] - data[i];
+  }
+  return sum == 0.0;
+}
+
+void check_finite(const Batch& batch, const char* name) {
+  const py::ssize_t total = batch.count * batch.size;
+  if (all_finite(batch.data, total)) {
+    return;
+  }
+  for (py::ssize_t i = 0; i < total; ++i) {
+    if (!std::isfinite(batch.data[i])) {
+      throw InvalidArgument(name, text(batch.data[i]) + " at flat index " + std::to_string(i),
+                            "finite numbers");
+    }
+  }
+}
+
+// The array behind an argument: itself if it is C-ordered float64, else a converted copy.
+py::object as_float64(py::handle argument, const char* name) {
+  const auto& api = py::detail::npy_api::get();
+  static PyObject* const float64 = py::dtype::of<double>().release().ptr();
+  if (api.PyArray_Check_(argument.ptr())) {
+    const auto* array = py::detail::array_proxy(argument.ptr());
+    constexpr int kReadable =
+        py::detail::npy_api::NPY_ARRAY_C_CONTIGUOUS_ | py::detail::npy_api::NPY_ARRAY_ALIGNED_;
+    if (array->descr == float64 && (array->flags & kReadable) == kReadable) {
+      return py::reinterpret_borrow<py::object>(argument);
+    }
+  }
+  return to_float64(argument, name);
+}
+
+}  // namespace
+
+Batch read(py::handle argument, const char* name, const std::vector<py::ssize_t>& item,
+           bool batches) {
+  Batch batch;
+  batch.owner = as_float64(argument, name);
+  const auto* array = py::detail::array_proxy(batch.owner.ptr());
+  const auto dimensions = static_cast<py::ssize_t>(item.size());
+  const py::ssize_t lead = array->nd - dimensions;
+  bool fits = lead == 0 || (lead == 1 && batches);
+  for (py::ssize_t i = 0; fits && i < dimensions; ++i) {
+    fits = array->dimensions[lead + i] == item[static_cast<std::size_t>(i)];
+  }
+  if (!fits) {
+    std::string expected = dimensions == 0 ? "a number" : shape_text(item.data(), dimensions);
+    if (batches) {
+      expected += " or " + shape_text(item.data(), dimensions, "N, ");
+    }
+    throw InvalidArgument(name, "shape " + shape_text(array->dimensions, array->nd), expected);
+  }
+  batch.data = reinterpret_cast<const double*>(array->data);
+  batch.single = lead == 0;
+  batch.count = batch.single ? 1 : array->dimensions[0];
+  for (const py::ssize_t length : item) {
+    batch.size *= length;
+  }
+  check_finite(batch, name);
+  return batch;
+}
+
+Batch read_vectors(py::handle argument, const char* name, py::ssize_t n) {
+  Batch batch;
+  batch.owner = as_float64(argument, name);
+  const auto* array = py::detail::array_proxy(batch.owner.ptr());
+  if (array->nd == 1 && array->dimensions[0] == n) {
+    batch.data = reinterpret_cast<const double*>(array->data);
+    batch.size = n;
+    check_finite(batch, name);
+    return batch;
+  }
+  return read(argument, name, {n});
+}
+
+Batch read_matrices(py::handle argument, const char* name, py::ssize_t& rows, py::ssize_t& cols) {
+  const py::object owner = as_float64(argument, name);
+  const auto* array = py::detail::array_proxy(owner.ptr());
+  const int nd = array->nd;
+  const auto fits = [&](int axis) {
+    return array->dimensions[axis] >= 1 && array->dimensions[axis] <= kMaxDof;
+  };
+  if (nd < 2 || nd > 3 || !fits(nd - 1) || !fits(nd - 2)) {
+    const std::string most = std::to_string(kMaxDof);
+    throw InvalidArgument(name, "shape " + shape_text(array->dimensions, nd),
+                          "(m, n) or (N, m, n) with 1 <= m, n <= " + most);
+  }
+  rows = array->dimensions[nd - 2];
+  cols = array->dimensions[nd - 1];
+  return read(owner, name, {rows, cols});
+}
+
+Array make_array(const py::ssize_t* shape, int dimensions) {
+  const auto& api = py::detail::npy_api::get();
+  static PyObject* const float64 = py::dtype::of<double>().release().ptr();
+  Py_INCREF(float64);  // the call below steals a reference
+  PyObject* array = api.PyArray_NewFromDescr_(api.PyArray_Type_, float64, dimensions,
+                                              const_cast<Py_intptr_t*>(shape), nullptr, nullptr, 0,
+                                              nullptr);
+  if (array == nullptr) {
+    throw py::error_already_set();
+  }
+  return py::reinterpret_steal<Array>(array);
+}
+
+Array make_array(const Batch& batch, std::initializer_list<py::ssize_t> item) {
+  std::array<py::ssize_t, 5> shape{batch.count};
+  int dimensions = batch.single ? 0 : 1;
+  for (const py::ssize_t length : item) {
+    shape[static_cast<std::size_t>(dimensions++)] = length;
+  }
+  return make_array(shape.data(), dimensions);
+}
+
+Array frozen(const JointVector& v) {
+  Array array(v.size(), v.data());
+  array.attr("flags").attr("writeable") = false;
+  return array;
+}
+
+Eigen::Matrix3d read_rotation(const double* row_major, const char* name) {
+  using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  Eigen::Matrix4d T = Eigen::Matrix4d::Identity();
+  T.topLeftCorner<3, 3>() = Eigen::Map<const RowMajor>(row_major);
+  if (!is_rigid(T)) {
+    throw InvalidArgument(name, "a (3, 3) matrix that is no rotation",
+                          "R^T R = I within 1e-6 and det R = 1");
+  }
+  return T.topLeftCorner<3, 3>();
+}
+
+SE3 read_pose(const double* row_major, const char* name) {
+  using RowMajor = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+  const Eigen::Matrix4d T = Eigen::Map<const RowMajor>(row_major);
+  if (!is_rigid(T)) {
+    throw InvalidArgument(name, "a (4, 4) matrix that is no rigid transform",
+                          "R^T R = I within 1e-6, det R = 1 and last row 0 0 0 1");
+  }
+  return {T.topLeftCorner<3, 3>(), T.topRightCorner<3, 1>()};
+}
+
+void write_pose(const SE3& T, double* row_major) {
+  for (int row = 0; row < 3; ++row) {
+    double* to = row_major + 4 * row;
+    to[0] = T.rotation(row, 0);
+    to[1] = T.rotation(row, 1);
+    to[2] = T.rotation(row, 2);
+    to[3] = T.translation[row];
+  }
+  row_major[12] = row_major[13] = row_major[14] = 0.0;
+  row_major[15] = 1.0;
+}
+
+}  // namespace thing_kin::python

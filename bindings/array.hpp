@@ -1,0 +1,130 @@
+#pragma once
+
+// Borders between numpy and the core: every array argument is checked here, once, and named in the
+// error if it is wrong. C-ordered float64 input is read in place; anything else is converted.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include "thing_kin/core/types.hpp"
+#include "thing_kin/lie/se3.hpp"
+
+namespace thing_kin::python {
+
+namespace py = pybind11;
+
+/// Any argument that numpy can make an array of. Takes no part in overload resolution: the checks
+/// below say what is wrong with it.
+class ArrayLike : public py::object {
+ public:
+  PYBIND11_OBJECT_DEFAULT(ArrayLike, object, [](PyObject*) { return 1; })
+};
+
+/// Results that are a float for one configuration and an array for a batch.
+class FloatOrArray : public py::object {
+ public:
+  PYBIND11_OBJECT_DEFAULT(FloatOrArray, object, [](PyObject*) { return 1; })
+};
+
+using Array = py::array_t<double>;
+
+/// An array argument in C order: `count` items of `size` doubles each.
+struct Batch {
+  const double* data = nullptr;
+  py::ssize_t count = 1;
+  py::ssize_t size = 1;
+  bool single = true;  ///< no leading batch axis
+  py::object owner;    ///< keeps the data alive
+
+  const double* item(py::ssize_t i) const { return data + i * size; }
+};
+
+/// Reads one item of shape `item` or, if `batches`, a stack of them. Throws InvalidArgument for a
+/// wrong shape, a dtype that is not real numbers, NaN or inf.
+Batch read(py::handle argument, const char* name, const std::vector<py::ssize_t>& item,
+           bool batches = true);
+
+/// As read(), for the hot path of one (n) vector or an (N, n) batch.
+Batch read_vectors(py::handle argument, const char* name, py::ssize_t n);
+
+/// One matrix of any shape up to kMaxDof on a side, or a stack of them; `rows`, `cols` are set.
+Batch read_matrices(py::handle argument, const char* name, py::ssize_t& rows, py::ssize_t& cols);
+
+/// A new C-ordered array: shape `item`, with a leading axis if the batch has one.
+Array make_array(const Batch& batch, std::initializer_list<py::ssize_t> item);
+
+/// A new C-ordered array.
+Array make_array(const py::ssize_t* shape, int dimensions);
+
+/// A read-only copy, so that an immutable object's arrays can't be mistaken for its state.
+Array frozen(const JointVector& v);
+
+/// Rigid transform from 16 row-major numbers; throws InvalidArgument naming `name` if it is none.
+SE3 read_pose(const double* row_major, const char* name);
+Eigen::Matrix3d read_rotation(const double* row_major, const char* name);
+
+void write_pose(const SE3& T, double* row_major);
+
+template <typename Matrix>
+void write_matrix(const Matrix& matrix, double* row_major) {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Eigen::Map<RowMajor>(row_major, matrix.rows(), matrix.cols()) = matrix;
+}
+
+inline SmallMatrix matrix_at(const Batch& batch, py::ssize_t i, py::ssize_t rows,
+                             py::ssize_t cols) {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return Eigen::Map<const RowMajor>(batch.item(i), rows, cols);
+}
+
+inline SmallVector vector_at(const Batch& batch, py::ssize_t i) {
+  return Eigen::Map<const Eigen::VectorXd>(batch.item(i), batch.size);
+}
+
+/// out[i] = function(in[i]) for every item; without the GIL if there is a batch. `function(const
+/// double* in, double* out)` must not touch Python.
+template <typename Function>
+Array map(const Batch& batch, std::initializer_list<py::ssize_t> item, Function function) {
+  Array out = make_array(batch, item);
+  double* to = out.mutable_data();
+  if (batch.single) {
+    function(batch.data, to);
+    return out;
+  }
+  const py::ssize_t stride = batch.count > 0 ? out.size() / batch.count : 0;
+  const py::gil_scoped_release release;
+  for (py::ssize_t i = 0; i < batch.count; ++i) {
+    function(batch.item(i), to + i * stride);
+  }
+  return out;
+}
+
+/// As map(), for functions that return one double.
+template <typename Function>
+FloatOrArray map_scalar(const Batch& batch, Function function) {
+  if (batch.single) {
+    return py::reinterpret_steal<FloatOrArray>(PyFloat_FromDouble(function(batch.data)));
+  }
+  return py::reinterpret_steal<FloatOrArray>(
+      map(batch, {}, [&](const double* in, double* out) { *out = function(in); }).release());
+}
+
+}  // namespace thing_kin::python
+
+namespace pybind11::detail {
+
+template <>
+struct handle_type_name<thing_kin::python::ArrayLike> {
+  static constexpr auto name = const_name("numpy.typing.ArrayLike");
+};
+
+template <>
+struct handle_type_name<thing_kin::python::FloatOrArray> {
+  static constexpr auto name = const_name("float | numpy.typing.NDArray[numpy.float64]");
+};
+
+}  // namespace pybind11::detail

@@ -1,0 +1,39 @@
+#pragma once
+
+// One function a concept; module.cpp calls them in the order of the layers.
+
+#include <pybind11/pybind11.h>
+
+#include "thing_kin/model/chain.hpp"
+
+namespace thing_kin::python {
+
+namespace py = pybind11;
+
+using ChainClass = py::class_<Chain>;
+
+void bind_so3(py::module_& lie);
+void bind_se3(py::module_& lie, py::module_& top);
+
+void bind_singular_value_filter(py::module_& m);
+void bind_pseudoinverse(py::module_& m);
+void bind_selectively_damped(py::module_& m);
+void bind_null_space(py::module_& m);
+
+void bind_dh(py::module_& m);
+ChainClass bind_chain(py::module_& m);
+void bind_omni_base(py::module_& m);
+void bind_robots(py::module_& robots);
+
+void bind_posture(ChainClass& chain);
+void bind_jacobian(ChainClass& chain);
+void bind_hessian(ChainClass& chain);
+void bind_manipulability(ChainClass& chain);
+void bind_pose_error(py::module_& m);
+void bind_task_vector(ChainClass& chain);
+
+void bind_differential_inverse(py::module_& m);
+void bind_task(py::module_& m);
+void bind_task_priority(py::module_& m);
+
+}  // namespace thing_kin::python

@@ -1,0 +1,38 @@
+#include <pybind11/pybind11.h>
+
+#include "bindings.hpp"
+#include "thing_kin/core/types.hpp"
+#include "thing_kin/core/version.hpp"
+
+PYBIND11_MODULE(_core, m) {
+  using namespace thing_kin::python;
+  m.doc() = "The C++ core of thing_kin. Private: import its names from thing_kin.";
+  m.attr("__version__") = thing_kin::kVersion;
+  m.attr("MAX_DOF") = thing_kin::kMaxDof;
+
+  py::module_ lie = m.def_submodule("lie", "Rotations SO(3) and rigid transforms SE(3).");
+  bind_so3(lie);
+  bind_se3(lie, m);
+
+  bind_singular_value_filter(m);
+  bind_pseudoinverse(m);
+  bind_selectively_damped(m);
+  bind_null_space(m);
+
+  bind_dh(m);
+  ChainClass chain = bind_chain(m);
+  bind_omni_base(m);
+  py::module_ robots = m.def_submodule("robots", "The robots of the two theses.");
+  bind_robots(robots);
+
+  bind_posture(chain);
+  bind_jacobian(chain);
+  bind_hessian(chain);
+  bind_manipulability(chain);
+  bind_pose_error(m);
+  bind_task_vector(chain);
+
+  bind_differential_inverse(m);
+  bind_task(m);
+  bind_task_priority(m);
+}

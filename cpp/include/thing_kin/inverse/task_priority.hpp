@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "thing_kin/inverse/differential_inverse.hpp"
+#include "thing_kin/inverse/task.hpp"
+#include "thing_kin/linalg/singular_value_filter.hpp"
+
+namespace thing_kin {
+
+inline constexpr int kMaxTasks = 16;
+
+/// How the tasks' steps are put together.
+enum class Scheme : std::uint8_t {
+  kNakamura,    ///< [M17] (4.16): one or two tasks
+  kSiciliano,   ///< Siciliano & Slotine (1991): any number of tasks
+  kChiaverini,  ///< [M17] (4.17): robust at algorithmic singularities, only approximately optimal
+};
+
+Scheme scheme_from_string(const std::string& name);
+const char* to_string(Scheme scheme);
+
+struct TaskPriorityOptions {
+  Scheme scheme = Scheme::kChiaverini;
+  DifferentialInverse inverse = SelectivelyDamped();
+  std::optional<SingularValueFilter> filter;
+  /// Largest |dq_j| of a step, one a joint; empty: none.
+  std::optional<JointVector> step_limit;
+};
+
+/// One step, and what each level had to do with it. Level `tasks` is the free null-space motion.
+struct TaskPriorityStep {
+  struct Level {
+    JointVector contribution;     ///< before the step limit, in the null space of the levels above
+    double scale = 1.0;           ///< what the step limit left of it, [0, 1]
+    SmallVector error;            ///< of the task, before its gain
+    SmallVector singular_values;  ///< of the matrix that was inverted, before any filter
+  };
+
+  JointVector dq;  ///< sum of scale * contribution
+  int count = 0;   ///< levels
+  std::array<Level, kMaxTasks + 1> levels;
+};
+
+/// Prioritised inverse differential kinematics, [M17] 4.3. Immutable: any number of threads may use
+/// one solver; solve() allocates nothing.
+///
+/// A lower task never disturbs a higher one: it moves in the exact null space of all above it,
+/// whatever regularisation the inverse has (erratum to (4.15)-(4.18)).
+class TaskPriority {
+ public:
+  /// Throws InvalidArgument: no task or too many, a scheme that can't take them, an unknown frame, a
+  /// base task without a base, a step limit of the wrong size or not positive.
+  TaskPriority(Chain chain, std::vector<std::shared_ptr<const Task>> tasks,
+               TaskPriorityOptions options);
+
+  const Chain& chain() const { return chain_; }
+  const std::vector<std::shared_ptr<const Task>>& tasks() const { return tasks_; }
+  const TaskPriorityOptions& options() const { return options_; }
+
+  /// q: chain.dof() finite entries. targets: one pointer a task, see Task::target_shape.
+  /// null_motion: dof() entries to be projected into what the tasks leave free, or nullptr.
+  void solve(const double* q, std::span<const double* const> targets, const double* null_motion,
+             TaskPriorityStep& step) const noexcept;
+
+ private:
+  void add_level(int level, const TaskValue& value, const SmallMatrix& Z, bool need_null_space,
+                 TaskPriorityStep& step, SmallMatrix& next_Z) const noexcept;
+
+  Chain chain_;
+  std::vector<std::shared_ptr<const Task>> tasks_;
+  std::vector<int> frames_;
+  TaskPriorityOptions options_;
+};
+
+/// Chooses the levels' scales so that no |dq_j| exceeds its limit: whole contributions are kept from
+/// the highest priority down, the first that does not fit is shortened, and those below get what
+/// room is left. The direction of no level changes, so that priorities stay strict.
+void scale_to_limit(const JointVector& limit, TaskPriorityStep& step) noexcept;
+
+}  // namespace thing_kin

@@ -1,0 +1,87 @@
+#include "thing_kin/inverse/task.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "thing_kin/core/error.hpp"
+#include "thing_kin/kinematics/jacobian.hpp"
+#include "thing_kin/kinematics/pose_error.hpp"
+#include "thing_kin/lie/so3.hpp"
+
+namespace thing_kin {
+
+namespace {
+
+using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+using RowMajor4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+
+// To (-pi, pi].
+double wrapped(double angle) {
+  const double remainder = std::remainder(angle, 2 * std::numbers::pi);
+  return remainder <= -std::numbers::pi ? std::numbers::pi : remainder;
+}
+
+Jacobian jacobian_of(const Chain& chain, const Posture& posture, int frame) {
+  Jacobian J;
+  geometric_jacobian(chain, posture, frame, ReferenceFrame::kWorldAligned, J);
+  return J;
+}
+
+}  // namespace
+
+Task::Task(double gain, std::string frame) : gain_(gain), frame_(std::move(frame)) {
+  if (!(std::isfinite(gain) && gain > 0.0)) {
+    throw InvalidArgument("gain", text(gain), "a finite number > 0");
+  }
+}
+
+void PoseTask::evaluate(const Chain& chain, const Posture& posture, int frame, const double* /*q*/,
+                        const double* target, TaskValue& value) const noexcept {
+  const Eigen::Map<const RowMajor4> goal(target);
+  const SE3 T_goal{goal.topLeftCorner<3, 3>(), goal.topRightCorner<3, 1>()};
+  value.jacobian = jacobian_of(chain, posture, frame);
+  value.error = pose_error(frame_pose(chain, posture, frame), T_goal);
+}
+
+void PositionTask::evaluate(const Chain& chain, const Posture& posture, int frame,
+                            const double* /*q*/, const double* target,
+                            TaskValue& value) const noexcept {
+  const Eigen::Map<const Eigen::Vector3d> goal(target);
+  value.jacobian = jacobian_of(chain, posture, frame).topRows<3>();
+  value.error = goal - frame_pose(chain, posture, frame).translation;
+}
+
+void OrientationTask::evaluate(const Chain& chain, const Posture& posture, int frame,
+                               const double* /*q*/, const double* target,
+                               TaskValue& value) const noexcept {
+  const Eigen::Map<const RowMajor3> goal(target);
+  const Eigen::Matrix3d R = frame_pose(chain, posture, frame).rotation;
+  value.jacobian = jacobian_of(chain, posture, frame).bottomRows<3>();
+  value.error = so3_log(goal * R.transpose());
+}
+
+void BaseTask::evaluate(const Chain& chain, const Posture& /*posture*/, int /*frame*/,
+                        const double* q, const double* target, TaskValue& value) const noexcept {
+  const auto& base = *chain.base_joints();
+  value.jacobian.setZero(3, chain.dof());
+  value.error.resize(3);
+  for (int row = 0; row < 3; ++row) {
+    const int joint = base[static_cast<std::size_t>(row)];
+    value.jacobian(row, joint) = 1.0;
+    value.error[row] = target[row] - q[joint];
+  }
+  value.error[2] = wrapped(value.error[2]);
+}
+
+void PostureTask::evaluate(const Chain& chain, const Posture& /*posture*/, int /*frame*/,
+                           const double* q, const double* target, TaskValue& value) const noexcept {
+  const int n = chain.dof();
+  value.jacobian.setIdentity(n, n);
+  value.error = Eigen::Map<const Eigen::VectorXd>(target, n) - Eigen::Map<const Eigen::VectorXd>(q, n);
+  if (chain.base_joints()) {
+    double& theta = value.error[(*chain.base_joints())[2]];
+    theta = wrapped(theta);
+  }
+}
+
+}  // namespace thing_kin

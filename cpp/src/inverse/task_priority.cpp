@@ -1,0 +1,205 @@
+#include "thing_kin/inverse/task_priority.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "thing_kin/core/error.hpp"
+
+namespace thing_kin {
+
+namespace {
+
+constexpr std::array kSchemes = {Scheme::kNakamura, Scheme::kSiciliano, Scheme::kChiaverini};
+
+// Writes J (or J Z with its right singular vectors lifted back into joint space) as an Svd.
+void decompose_in(const SmallMatrix& J, const SmallMatrix& Z, Svd& svd) {
+  if (Z.cols() == J.cols()) {  // Z spans everything: the first level
+    decompose(J, svd);
+    return;
+  }
+  const SmallMatrix reduced = J * Z;
+  decompose(reduced, svd, J.norm());
+  const SmallMatrix lifted = Z * svd.v;
+  svd.v = lifted;
+}
+
+// The largest s in [0, 1] with |total + s c| <= limit in every joint; -1 if there is none.
+double largest_scale(const JointVector& limit, const JointVector& total, const JointVector& c) {
+  double low = 0.0;
+  double high = 1.0;
+  for (Eigen::Index j = 0; j < c.size(); ++j) {
+    if (c[j] == 0.0) {
+      if (std::abs(total[j]) > limit[j]) {
+        return -1.0;
+      }
+      continue;
+    }
+    const double to_limit = (std::copysign(limit[j], c[j]) - total[j]) / c[j];
+    const double from_limit = (-std::copysign(limit[j], c[j]) - total[j]) / c[j];
+    high = std::min(high, to_limit);
+    low = std::max(low, from_limit);
+  }
+  return low <= high ? high : -1.0;
+}
+
+}  // namespace
+
+const char* to_string(Scheme scheme) {
+  switch (scheme) {
+    case Scheme::kNakamura:
+      return "nakamura";
+    case Scheme::kSiciliano:
+      return "siciliano";
+    case Scheme::kChiaverini:
+      break;
+  }
+  return "chiaverini";
+}
+
+Scheme scheme_from_string(const std::string& name) {
+  for (const Scheme scheme : kSchemes) {
+    if (name == to_string(scheme)) {
+      return scheme;
+    }
+  }
+  throw InvalidArgument("scheme", quoted(name), "'nakamura', 'siciliano' or 'chiaverini'");
+}
+
+TaskPriority::TaskPriority(Chain chain, std::vector<std::shared_ptr<const Task>> tasks,
+                           TaskPriorityOptions options)
+    : chain_(std::move(chain)), tasks_(std::move(tasks)), options_(std::move(options)) {
+  const std::size_t most =
+      options_.scheme == Scheme::kNakamura ? 2 : static_cast<std::size_t>(kMaxTasks);
+  if (tasks_.empty() || tasks_.size() > most) {
+    throw InvalidArgument("tasks", std::to_string(tasks_.size()) + " tasks",
+                          "1 to " + std::to_string(most) + " with scheme '" +
+                              to_string(options_.scheme) + "'");
+  }
+  for (const auto& task : tasks_) {
+    if (task->needs_base() && !chain_.base_joints()) {
+      throw InvalidArgument("tasks", std::string(task->kind()) + " for " + quoted(chain_.name()),
+                            "a robot on an omnidirectional base (on_omni_base)");
+    }
+    frames_.push_back(task->frame().empty() ? chain_.tool() : chain_.frame_index(task->frame()));
+  }
+  if (options_.step_limit) {
+    const JointVector& limit = *options_.step_limit;
+    if (limit.size() != chain_.dof() || !(limit.array() > 0.0).all()) {
+      throw InvalidArgument("step_limit", "an array of " + std::to_string(limit.size()),
+                            std::to_string(chain_.dof()) + " positive numbers (inf: no limit)");
+    }
+  }
+}
+
+// Z: orthonormal basis of the null space of all levels above. next_Z: with this level too.
+void TaskPriority::add_level(int level, const TaskValue& value, const SmallMatrix& Z,
+                             bool need_null_space, TaskPriorityStep& step,
+                             SmallMatrix& next_Z) const noexcept {
+  const Task& task = *tasks_[static_cast<std::size_t>(level)];
+  TaskPriorityStep::Level& result = step.levels[static_cast<std::size_t>(level)];
+  const SmallMatrix& J = value.jacobian;
+  const bool first = Z.cols() == J.cols();
+  const bool robust = options_.scheme == Scheme::kChiaverini;
+
+  Svd svd;
+  if (robust) {
+    decompose(J, svd);
+  } else {
+    decompose_in(J, Z, svd);
+  }
+  result.error = value.error;
+  result.singular_values = svd.sigma;
+  if (need_null_space) {
+    if (robust && !first) {
+      Svd below;
+      decompose_in(J, Z, below);
+      next_Z = below.v.rightCols(below.v.cols() - below.rank);
+    } else {
+      next_Z = svd.v.rightCols(svd.v.cols() - svd.rank);
+    }
+  }
+  if (options_.filter) {
+    options_.filter->apply(svd);
+  }
+
+  // (4.16): dq_i = N (J N)# (e - J dq_{i-1}); (4.17): N J# e, N the exact projector Z Z^T.
+  SmallVector wanted = task.gain() * value.error;
+  if (!robust) {
+    wanted -= J * step.dq;
+  }
+  result.contribution = apply_inverse(options_.inverse, svd, task.blocks(chain_), wanted);
+  if (robust && !first) {
+    const SmallVector free = Z.transpose() * result.contribution;
+    result.contribution.noalias() = Z * free;
+  }
+  step.dq += result.contribution;
+}
+
+void TaskPriority::solve(const double* q, std::span<const double* const> targets,
+                         const double* null_motion, TaskPriorityStep& step) const noexcept {
+  const int n = chain_.dof();
+  const int tasks = static_cast<int>(tasks_.size());
+  step.count = tasks + (null_motion != nullptr ? 1 : 0);
+  step.dq.setZero(n);
+
+  Posture posture;
+  place_joints(chain_, q, posture);
+  SmallMatrix Z = SmallMatrix::Identity(n, n);
+  SmallMatrix next_Z;
+  TaskValue value;
+  for (int level = 0; level < tasks; ++level) {
+    const auto i = static_cast<std::size_t>(level);
+    tasks_[i]->evaluate(chain_, posture, frames_[i], q, targets[i], value);
+    const bool more = level + 1 < step.count;
+    add_level(level, value, Z, more, step, next_Z);
+    if (more) {
+      Z = next_Z;
+    }
+  }
+  if (null_motion != nullptr) {
+    const Eigen::Map<const Eigen::VectorXd> z(null_motion, n);
+    TaskPriorityStep::Level& free = step.levels[static_cast<std::size_t>(tasks)];
+    const SmallVector along = Z.transpose() * z;
+    free.contribution = Z * along;
+    free.error.resize(0);
+    free.singular_values.resize(0);
+    step.dq += free.contribution;
+  }
+  for (int level = 0; level < step.count; ++level) {
+    step.levels[static_cast<std::size_t>(level)].scale = 1.0;
+  }
+  if (options_.step_limit) {
+    scale_to_limit(*options_.step_limit, step);
+  }
+}
+
+void scale_to_limit(const JointVector& limit, TaskPriorityStep& step) noexcept {
+  const auto level = [&](int i) -> TaskPriorityStep::Level& {
+    return step.levels[static_cast<std::size_t>(i)];
+  };
+  if ((step.dq.array().abs() <= limit.array()).all()) {
+    return;
+  }
+  // From the lowest up: drop levels until one, shortened, fits.
+  int kept = step.count - 1;
+  JointVector above = step.dq - level(kept).contribution;
+  double scale = largest_scale(limit, above, level(kept).contribution);
+  while (scale < 0.0 && kept > 0) {
+    --kept;
+    above -= level(kept).contribution;
+    if (kept == 0) {
+      above.setZero();
+    }
+    scale = largest_scale(limit, above, level(kept).contribution);
+  }
+  level(kept).scale = scale;
+  step.dq = above + scale * level(kept).contribution;
+  // From there down: what fits into the room that is left.
+  for (int i = kept + 1; i < step.count; ++i) {
+    level(i).scale = std::max(0.0, largest_scale(limit, step.dq, level(i).contribution));
+    step.dq += level(i).scale * level(i).contribution;
+  }
+  step.dq = step.dq.cwiseMin(limit).cwiseMax(-limit);  // rounding only
+}
+
+}  // namespace thing_kin

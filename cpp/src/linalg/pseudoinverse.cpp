@@ -1,0 +1,36 @@
+#include "thing_kin/linalg/pseudoinverse.hpp"
+
+namespace thing_kin {
+
+SmallVector exact_gains(const Svd& svd) noexcept {
+  SmallVector gains = SmallVector::Zero(svd.sigma.size());
+  gains.head(svd.rank) = svd.sigma.head(svd.rank).cwiseInverse();
+  return gains;
+}
+
+SmallVector damped_gains(const Svd& svd, double lambda) noexcept {
+  return damped_gains(svd, SmallVector::Constant(svd.sigma.size(), lambda));
+}
+
+SmallVector damped_gains(const Svd& svd, const SmallVector& lambda) noexcept {
+  SmallVector gains = exact_gains(svd);
+  for (Eigen::Index i = 0; i < gains.size(); ++i) {
+    if (lambda[i] > 0.0) {
+      gains[i] = svd.sigma[i] / (svd.sigma[i] * svd.sigma[i] + lambda[i]);
+    }
+  }
+  return gains;
+}
+
+SmallMatrix pseudoinverse(const Svd& svd, const SmallVector& gains) noexcept {
+  const SmallMatrix scaled = svd.thin_v() * gains.asDiagonal();
+  return scaled * svd.u.transpose();
+}
+
+JointVector apply_pseudoinverse(const Svd& svd, const SmallVector& gains,
+                                const SmallVector& e) noexcept {
+  const SmallVector along = svd.u.transpose() * e;
+  return svd.thin_v() * gains.cwiseProduct(along);
+}
+
+}  // namespace thing_kin

@@ -1,0 +1,68 @@
+"""The numerical heart of a mobile manipulator.
+
+Poses are (4, 4) homogeneous matrices, planar poses (x, y, theta), quaternions (w, x, y, z), twists
+and pose errors [linear, angular]; metres, radians, seconds. A leading axis means a batch. Equation
+numbers: [M17] Maric 2017, [X21] Xie 2021.
+
+Examples
+--------
+>>> import numpy as np, thing_kin as tk
+>>> robot = tk.robots.thing()
+>>> robot.jacobian(np.zeros(9)).shape
+(6, 9)
+"""
+
+from thing_kin import lie, robots
+from thing_kin._core import (
+    DH,
+    BaseTask,
+    Chain,
+    Damped,
+    Exact,
+    OrientationTask,
+    PoseTask,
+    PositionTask,
+    PostureTask,
+    SelectivelyDamped,
+    SingularValueFilter,
+    Task,
+    TaskPriority,
+    TaskPriorityStep,
+    __version__,
+    filter_singular_values,
+    null_space,
+    null_space_projector,
+    on_omni_base,
+    pinv,
+    pose_error,
+    selectively_damped_step,
+    transform,
+)
+
+__all__ = [
+    "DH",
+    "BaseTask",
+    "Chain",
+    "Damped",
+    "Exact",
+    "OrientationTask",
+    "PoseTask",
+    "PositionTask",
+    "PostureTask",
+    "SelectivelyDamped",
+    "SingularValueFilter",
+    "Task",
+    "TaskPriority",
+    "TaskPriorityStep",
+    "__version__",
+    "filter_singular_values",
+    "lie",
+    "null_space",
+    "null_space_projector",
+    "on_omni_base",
+    "pinv",
+    "pose_error",
+    "robots",
+    "selectively_damped_step",
+    "transform",
+]

@@ -1,0 +1,121 @@
+// What control loops call must not touch the heap: malloc itself is counted here.
+
+#include <atomic>
+#include <cstdlib>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "random_chain.hpp"
+#include "thing_kin/inverse/task_priority.hpp"
+#include "thing_kin/kinematics/manipulability.hpp"
+#include "thing_kin/kinematics/task_vector.hpp"
+#include "thing_kin/linalg/null_space.hpp"
+#include "thing_kin/linalg/pseudoinverse.hpp"
+#include "thing_kin/model/robots.hpp"
+
+namespace {
+std::atomic<int> allocations{0};
+}
+
+// The sanitizers bring their own malloc, which must stay.
+#if !defined(__SANITIZE_ADDRESS__)
+extern "C" {
+void* __libc_malloc(std::size_t size);                     // NOLINT
+void* __libc_calloc(std::size_t count, std::size_t size);  // NOLINT
+void* __libc_realloc(void* block, std::size_t size);       // NOLINT
+
+void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+  ++allocations;
+  return __libc_calloc(count, size);
+}
+void* realloc(void* block, std::size_t size) {
+  ++allocations;
+  return __libc_realloc(block, size);
+}
+}
+#endif
+
+namespace thing_kin {
+namespace {
+
+template <typename Function>
+int allocations_in(Function function) {
+  const int before = allocations;
+  function();
+  return allocations - before;
+}
+
+#if !defined(__SANITIZE_ADDRESS__)
+TEST(NoHeap, TheCounterCounts) {
+  EXPECT_GE(allocations_in([] { std::make_unique<Svd>()->rank = 1; }), 1);
+  EXPECT_GE(allocations_in([] { Eigen::MatrixXd::Random(7, 7).eval(); }), 1);
+}
+#endif
+
+TEST(NoHeap, Kinematics) {
+  const Chain robot = robots::thing();
+  test::Generator rng(1);
+  const Eigen::VectorXd q = test::random_vector(rng, robot.dof());
+  EXPECT_EQ(allocations_in([&] {
+              Posture posture;
+              Jacobian J;
+              Hessian H;
+              place_joints(robot, q.data(), posture);
+              geometric_jacobian(robot, posture, robot.tool(), ReferenceFrame::kBody, J);
+              geometric_hessian(robot, posture, robot.tool(), ReferenceFrame::kWorldAligned, H);
+              const Dexterity dexterity(robot, posture, robot.tool());
+              dexterity.manipulability_gradient(H);
+              dexterity.dexterity_gradient(H);
+              task_vector(robot, q.data());
+            }),
+            0);
+}
+
+TEST(NoHeap, LinearAlgebra) {
+  test::Generator rng(2);
+  for (const auto& [rows, cols] : {std::pair{6, 9}, {9, 6}, {3, 9}, {32, 32}}) {
+    const SmallMatrix A =
+        SmallMatrix::NullaryExpr(rows, cols, [&] { return test::uniform(rng, -1, 1); });
+    EXPECT_EQ(allocations_in([&, m = rows] {
+                Svd svd;
+                decompose(A, svd);
+                SingularValueFilter(0.01, 10.0).apply(svd);
+                pseudoinverse(svd, damped_gains(svd, 1e-3));
+                selectively_damped_step(svd, RowBlocks::whole(m), SmallVector::Ones(m), 0.5);
+                null_space_projector(A);
+              }),
+              0);
+  }
+}
+
+TEST(NoHeap, TaskPriorityInEverySchemeAndInverse) {
+  const Chain robot = robots::thing();
+  test::Generator rng(3);
+  const Eigen::VectorXd q = test::random_vector(rng, 9);
+  const Eigen::VectorXd goal = test::random_vector(rng, 9);
+  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> T =
+      forward_kinematics(robot, goal.data(), robot.tool()).matrix();
+  const Eigen::Vector3d base(0.1, 0.2, 0.3);
+  const std::array<const double*, 2> targets = {T.data(), base.data()};
+  const Eigen::VectorXd z = test::random_vector(rng, 9);
+  auto step = std::make_unique<TaskPriorityStep>();
+  for (const Scheme scheme : {Scheme::kNakamura, Scheme::kSiciliano, Scheme::kChiaverini}) {
+    for (const DifferentialInverse& inverse :
+         {DifferentialInverse(Exact()), DifferentialInverse(Damped(1e-3)),
+          DifferentialInverse(SelectivelyDamped())}) {
+      TaskPriorityOptions options{scheme, inverse, SingularValueFilter(0.01, 10.0),
+                                  JointVector::Constant(9, 0.1)};
+      const TaskPriority solver(robot, {std::make_shared<PoseTask>(), std::make_shared<BaseTask>()},
+                                options);
+      EXPECT_EQ(allocations_in([&] { solver.solve(q.data(), targets, z.data(), *step); }), 0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace thing_kin
