@@ -12,21 +12,22 @@ namespace {
 
 // A conversion that loses nothing a user could have meant: numbers that are real, of any width.
 py::array to_float64(py::handle argument, const char* name) {
-  py::array array;
   try {
-    array = py::module_::import("numpy").attr("asarray")(argument).cast<py::array>();
+    const py::module_ numpy = py::module_::import("numpy");
+    const auto array = numpy.attr("asarray")(argument).cast<py::array>();
+    const char kind = array.dtype().kind();
+    if (kind != 'f' && kind != 'i' && kind != 'u') {
+      throw InvalidArgument(name, "dtype " + std::string(py::str(array.dtype())), "real numbers");
+    }
+    return numpy.attr("asarray")(array, py::arg("dtype") = "float64", py::arg("order") = "C")
+        .cast<py::array>();
   } catch (py::error_already_set& error) {
-    if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) {
+    if (!error.matches(PyExc_Exception) || error.matches(PyExc_MemoryError)) {
       throw;
     }
     throw InvalidArgument(name, py::str(py::type::of(argument).attr("__name__")),
                           "an array of real numbers");
   }
-  const char kind = array.dtype().kind();
-  if (kind != 'f' && kind != 'i' && kind != 'u') {
-    throw InvalidArgument(name, "dtype " + std::string(py::str(array.dtype())), "real numbers");
-  }
-  return py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(array);
 }
 
 std::string shape_text(const py::ssize_t* shape, py::ssize_t dimensions, const char* lead = "") {
@@ -79,7 +80,7 @@ py::object as_float64(py::handle argument, const char* name) {
 }  // namespace
 
 Batch read(py::handle argument, const char* name, const std::vector<py::ssize_t>& item,
-           bool batches) {
+           bool batches, Finite finite) {
   Batch batch;
   batch.owner = as_float64(argument, name);
   const auto* array = py::detail::array_proxy(batch.owner.ptr());
@@ -102,8 +103,28 @@ Batch read(py::handle argument, const char* name, const std::vector<py::ssize_t>
   for (const py::ssize_t length : item) {
     batch.size *= length;
   }
-  check_finite(batch, name);
+  if (finite == Finite::kYes) {
+    check_finite(batch, name);
+  }
   return batch;
+}
+
+SmallVector read_number_or_vector(py::handle argument, const char* name, py::ssize_t n,
+                                  Finite finite) {
+  const py::object owner = as_float64(argument, name);
+  if (py::detail::array_proxy(owner.ptr())->nd == 0) {
+    return SmallVector::Constant(n, *read(owner, name, {}, false, finite).data);
+  }
+  return vector_at(read(owner, name, {n}, false, finite), 0);
+}
+
+void check_magnitude(const Batch& batch, const char* name) {
+  constexpr double kLargest = 1e50;
+  for (py::ssize_t i = 0; i < batch.count * batch.size; ++i) {
+    if (std::abs(batch.data[i]) > kLargest) {
+      throw InvalidArgument(name, text(batch.data[i]), "numbers up to " + text(kLargest));
+    }
+  }
 }
 
 Batch read_vectors(py::handle argument, const char* name, py::ssize_t n) {
@@ -140,9 +161,9 @@ Array make_array(const py::ssize_t* shape, int dimensions) {
   const auto& api = py::detail::npy_api::get();
   static PyObject* const float64 = py::dtype::of<double>().release().ptr();
   Py_INCREF(float64);  // the call below steals a reference
-  PyObject* array = api.PyArray_NewFromDescr_(api.PyArray_Type_, float64, dimensions,
-                                              const_cast<Py_intptr_t*>(shape), nullptr, nullptr, 0,
-                                              nullptr);
+  PyObject* array =
+      api.PyArray_NewFromDescr_(api.PyArray_Type_, float64, dimensions,
+                                const_cast<Py_intptr_t*>(shape), nullptr, nullptr, 0, nullptr);
   if (array == nullptr) {
     throw py::error_already_set();
   }

@@ -43,10 +43,20 @@ struct Batch {
   const double* item(py::ssize_t i) const { return data + i * size; }
 };
 
+/// Limits may be infinite, nothing else.
+enum class Finite : bool { kNo, kYes };
+
 /// Reads one item of shape `item` or, if `batches`, a stack of them. Throws InvalidArgument for a
 /// wrong shape, a dtype that is not real numbers, NaN or inf.
 Batch read(py::handle argument, const char* name, const std::vector<py::ssize_t>& item,
-           bool batches = true);
+           bool batches = true, Finite finite = Finite::kYes);
+
+/// n numbers, or one that stands for all.
+SmallVector read_number_or_vector(py::handle argument, const char* name, py::ssize_t n,
+                                  Finite finite);
+
+/// Throws InvalidArgument if an entry is so large that products of a few would overflow.
+void check_magnitude(const Batch& batch, const char* name);
 
 /// As read(), for the hot path of one (n) vector or an (N, n) batch.
 Batch read_vectors(py::handle argument, const char* name, py::ssize_t n);

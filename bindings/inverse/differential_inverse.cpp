@@ -21,7 +21,8 @@ Exact()
       .def(py::self == py::self)
       .def("__hash__", [](const Exact&) { return py::hash(py::str("Exact")); })
       .def("__repr__", [](const Exact&) { return "Exact()"; });
-  py::class_<Damped>(m, "Damped", R"(Damped inverse J^T (J J^T + lambda I)^-1, [M17] (4.7), for TaskPriority.
+  py::class_<Damped>(m, "Damped",
+                     R"(Damped inverse J^T (J J^T + lambda I)^-1, [M17] (4.7), for TaskPriority.
 
 Parameters
 ----------

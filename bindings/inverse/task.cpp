@@ -37,7 +37,15 @@ void bind_joint_task(py::module_& m, const char* name, const char* doc) {
 }  // namespace
 
 void bind_task(py::module_& m) {
-  py::class_<Task, std::shared_ptr<Task>>(m, "Task", "What TaskPriority can be asked to do.")
+  py::class_<Task, std::shared_ptr<Task>>(
+      m, "Task", R"(What TaskPriority can be asked to do: the base of all tasks.
+
+Examples
+--------
+>>> import thing_kin as tk
+>>> isinstance(tk.PoseTask(), tk.Task)
+True
+)")
       .def_property_readonly("gain", &Task::gain, "The step asks for gain * error, [M17] (4.3).")
       .def_property_readonly(
           "of",
@@ -60,7 +68,8 @@ Examples
 >>> tk.PoseTask(gain=0.5)
 PoseTask(gain=0.5)
 )");
-  bind_frame_task<PositionTask>(m, "PositionTask", R"(Bring a frame's origin to a point; target (3,), m.
+  bind_frame_task<PositionTask>(m, "PositionTask",
+                                R"(Bring a frame's origin to a point; target (3,), m.
 
 Parameters
 ----------
@@ -103,7 +112,8 @@ Examples
 >>> tk.BaseTask(gain=0.5)
 BaseTask(gain=0.5)
 )");
-  bind_joint_task<PostureTask>(m, "PostureTask", R"(Bring all joints to a configuration; target (n,).
+  bind_joint_task<PostureTask>(m, "PostureTask",
+                               R"(Bring all joints to a configuration; target (n,).
 
 The theta of a base goes the short way round.
 

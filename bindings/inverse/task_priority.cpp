@@ -17,9 +17,7 @@ std::optional<JointVector> read_step_limit(const py::object& limit, int n) {
   if (limit.is_none()) {
     return std::nullopt;
   }
-  const bool scalar = py::module_::import("numpy").attr("ndim")(limit).cast<int>() == 0;
-  return scalar ? JointVector::Constant(n, read_limits(py::make_tuple(limit), "step_limit", 1)[0])
-                : JointVector(read_limits(limit, "step_limit", n));
+  return read_number_or_vector(limit, "step_limit", n, Finite::kNo);
 }
 
 // One target, checked, and kept alive by its Batch.
@@ -100,6 +98,15 @@ void bind_step(py::module_& m) {
   py::class_<TaskPriorityStep>(m, "TaskPriorityStep", R"(One step of TaskPriority, explained.
 
 A level is a task, highest priority first; the free null-space motion, if any, comes last.
+
+Examples
+--------
+>>> import numpy as np, thing_kin as tk
+>>> robot = tk.robots.thing()
+>>> solver = tk.TaskPriority(robot, [tk.BaseTask()])
+>>> step = solver.solve(np.zeros(9), [(0.1, 0.2, 0.3)])
+>>> step.errors[0]
+array([0.1, 0.2, 0.3])
 )")
       .def_property_readonly(
           "dq", [](const TaskPriorityStep& s) { return to_array(s.dq); },
@@ -176,7 +183,7 @@ Examples
 >>> q = np.array([0.0, -1.2, 1.4, -0.6, 1.2, 0.0, 0.0, 0.0, 0.0])
 >>> T_goal = robot.fk(q + 0.1)
 >>> solver = tk.TaskPriority(robot, tasks=[tk.PoseTask(), tk.BaseTask(gain=0.5)])
->>> for _ in range(30):
+>>> for _ in range(100):
 ...     q = q + solver.step(q, [T_goal, (0.2, 0.0, 0.1)])
 >>> bool(np.linalg.norm(tk.pose_error(robot.fk(q), T_goal)) < 1e-6)
 True

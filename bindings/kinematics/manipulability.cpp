@@ -15,7 +15,8 @@ Dexterity dexterity_at(const Chain& chain, const double* q, int frame, Posture& 
 }
 
 template <typename Measure>
-FloatOrArray measure(const Chain& c, const ArrayLike& q, const py::object& of, Measure of_dexterity) {
+FloatOrArray measure(const Chain& c, const ArrayLike& q, const py::object& of,
+                     Measure of_dexterity) {
   const int frame = read_frame(c, of, "of");
   return map_scalar(read_vectors(q, "q", c.dof()), [&](const double* in) {
     Posture posture;

@@ -5,6 +5,7 @@
 #include "array.hpp"
 #include "bindings.hpp"
 #include "thing_kin/core/error.hpp"
+#include "thing_kin/core/tolerance.hpp"
 
 namespace thing_kin::python {
 
@@ -18,13 +19,12 @@ Vector6 error_between(const double* from, const double* to, ErrorFrame frame, Er
     return body ? pose_error_body(T, T_goal) : pose_error(T, T_goal);
   }
   const double angle = rotation_angle(T.rotation, T_goal.rotation);
-  if (angle >= std::numbers::pi / 2) {
+  if (angle >= std::numbers::pi / 2 - kQuarterTurnMargin) {
     throw InvalidArgument("T_goal", "a rotation by " + text(angle) + " rad from T",
                           "less than pi/2 with method='cross'");
   }
   Vector6 error;
-  error << T_goal.translation - T.translation,
-      orientation_error_cross(T.rotation, T_goal.rotation);
+  error << T_goal.translation - T.translation, orientation_error_cross(T.rotation, T_goal.rotation);
   if (body) {
     error.head<3>() = T.rotation.transpose() * error.head<3>().eval();
     error.tail<3>() = T.rotation.transpose() * error.tail<3>().eval();

@@ -15,7 +15,8 @@ void bind_posture(ChainClass& chain) {
           write_pose(forward_kinematics(c, in, index), out);
         });
       },
-      py::arg("q"), py::arg("frame") = py::none(), R"(Forward kinematics: pose of a frame, [M17] (3.8).
+      py::arg("q"), py::arg("frame") = py::none(),
+      R"(Forward kinematics: pose of a frame, [M17] (3.8).
 
 Parameters
 ----------
@@ -43,13 +44,14 @@ array([0.27 , 0.01 , 0.653])
       "fk_all",
       [](const Chain& c, const ArrayLike& q) {
         const auto count = static_cast<int>(c.frames().size());
-        return map(read_vectors(q, "q", c.dof()), {count, 4, 4}, [&](const double* in, double* out) {
-          Posture posture;
-          place_joints(c, in, posture);
-          for (int frame = 0; frame < count; ++frame) {
-            write_pose(frame_pose(c, posture, frame), out + 16 * frame);
-          }
-        });
+        return map(read_vectors(q, "q", c.dof()), {count, 4, 4},
+                   [&](const double* in, double* out) {
+                     Posture posture;
+                     place_joints(c, in, posture);
+                     for (int frame = 0; frame < count; ++frame) {
+                       write_pose(frame_pose(c, posture, frame), out + 16 * frame);
+                     }
+                   });
       },
       py::arg("q"), R"(Poses of all frames, in the order of `frames`.
 

@@ -13,13 +13,19 @@ namespace {
 
 using Map6 = Eigen::Map<const Vector6>;
 
+Batch read_twists(const ArrayLike& xi) {
+  Batch batch = read(xi, "xi", {6});
+  check_magnitude(batch, "xi");
+  return batch;
+}
+
 Array matrix_of_twist(const ArrayLike& xi, Matrix6 (*function)(const Vector6&)) {
-  return map(read(xi, "xi", {6}), {6, 6},
+  return map(read_twists(xi), {6, 6},
              [&](const double* in, double* out) { write_matrix(function(Map6(in)), out); });
 }
 
 Array inverse_of_twist(const ArrayLike& xi, Matrix6 (*function)(const Vector6&)) {
-  const Batch batch = read(xi, "xi", {6});
+  const Batch batch = read_twists(xi);
   for (py::ssize_t i = 0; i < batch.count; ++i) {
     const double turns = Map6(batch.item(i)).tail<3>().norm() / (2 * M_PI);
     if (turns > 0.5 && std::abs(turns - std::round(turns)) < 1e-9) {
@@ -45,7 +51,7 @@ Eigen::Matrix3d rotation_of(const py::object& rpy, const py::object& quaternion)
   if (!quaternion.is_none()) {
     const Batch q = read(quaternion, "quaternion", {4}, false);
     const Eigen::Vector4d wxyz = vector_at(q, 0);
-    if (wxyz.norm() < 1e-12) {
+    if (wxyz.isZero(0.0)) {
       throw InvalidArgument("quaternion", "zero", "a quaternion (w, x, y, z) that is not zero");
     }
     return rotation_from_quaternion(wxyz);
@@ -102,7 +108,7 @@ array([[1., 0., 0., 1.],
   lie.def(
       "se3_exp",
       [](const ArrayLike& xi) {
-        return map(read(xi, "xi", {6}), {4, 4},
+        return map(read_twists(xi), {4, 4},
                    [](const double* in, double* out) { write_pose(se3_exp(Map6(in)), out); });
       },
       py::arg("xi"), R"(Rigid transform of a twist [linear, angular].

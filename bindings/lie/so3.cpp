@@ -20,13 +20,15 @@ void check_rotations(const Batch& batch, const char* name) {
 }
 
 Array matrix_of_vector(const ArrayLike& phi, Eigen::Matrix3d (*function)(const Eigen::Vector3d&)) {
-  return map(read(phi, "phi", {3}), {3, 3}, [&](const double* in, double* out) {
-    write_matrix(function(Map3(in)), out);
-  });
+  const Batch batch = read(phi, "phi", {3});
+  check_magnitude(batch, "phi");
+  return map(batch, {3, 3},
+             [&](const double* in, double* out) { write_matrix(function(Map3(in)), out); });
 }
 
 Array inverse_of_vector(const ArrayLike& phi, Eigen::Matrix3d (*function)(const Eigen::Vector3d&)) {
   const Batch batch = read(phi, "phi", {3});
+  check_magnitude(batch, "phi");
   for (py::ssize_t i = 0; i < batch.count; ++i) {
     const double turns = Map3(batch.item(i)).norm() / (2 * M_PI);
     if (turns > 0.5 && std::abs(turns - std::round(turns)) < 1e-9) {
@@ -214,15 +216,16 @@ array([1., 0., 0., 0.])
       [](const ArrayLike& q) {
         const Batch batch = read(q, "quaternion", {4});
         for (py::ssize_t i = 0; i < batch.count; ++i) {
-          if (Eigen::Map<const Eigen::Vector4d>(batch.item(i)).norm() < 1e-12) {
-            throw InvalidArgument("quaternion", "zero", "a quaternion (w, x, y, z) that is not zero");
+          if (Eigen::Map<const Eigen::Vector4d>(batch.item(i)).isZero(0.0)) {
+            throw InvalidArgument("quaternion", "zero",
+                                  "a quaternion (w, x, y, z) that is not zero");
           }
         }
         return map(batch, {3, 3}, [](const double* in, double* out) {
           write_matrix(rotation_from_quaternion(Eigen::Map<const Eigen::Vector4d>(in)), out);
         });
       },
-      py::arg("quaternion"), R"(Rotation matrix of a quaternion (w, x, y, z), normalised first.
+      py::arg("quaternion"), R"(Rotation matrix of a quaternion (w, x, y, z), normalized first.
 
 Parameters
 ----------

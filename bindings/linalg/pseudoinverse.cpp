@@ -18,11 +18,7 @@ SmallVector read_damping(const py::object& damping, py::ssize_t count) {
   if (damping.is_none()) {
     return SmallVector::Zero(count);
   }
-  const bool scalar = py::module_::import("numpy").attr("ndim")(damping).cast<int>() == 0;
-  const Batch batch = scalar ? read(damping, "damping", {}, false)
-                             : read(damping, "damping", {count}, false);
-  const SmallVector lambda =
-      scalar ? SmallVector::Constant(count, *batch.data) : vector_at(batch, 0);
+  const SmallVector lambda = read_number_or_vector(damping, "damping", count, Finite::kYes);
   if (lambda.minCoeff() < 0.0) {
     throw InvalidArgument("damping", text(lambda.minCoeff()), "numbers >= 0");
   }

@@ -4,6 +4,7 @@
 
 #include "array.hpp"
 #include "bindings.hpp"
+#include "thing_kin/core/error.hpp"
 
 namespace thing_kin::python {
 
@@ -40,23 +41,27 @@ Examples
           "__call__",
           [](const SingularValueFilter& filter, const ArrayLike& s) {
             const Batch values = read(s, "s", {});
+            for (py::ssize_t i = 0; i < values.count; ++i) {
+              if (values.data[i] < 0.0) {
+                throw InvalidArgument("s", text(values.data[i]), "singular values >= 0");
+              }
+            }
             return map_scalar(values, [&](const double* in) { return filter(*in); });
           },
           py::arg("s"), "Filtered singular values, elementwise; a number or (N,).")
       .def(py::self == py::self)
-      .def("__hash__",
-           [](const SingularValueFilter& f) {
-             return py::hash(py::make_tuple(f.sigma0(), f.nu()));
-           })
+      .def(
+          "__hash__",
+          [](const SingularValueFilter& f) { return py::hash(py::make_tuple(f.sigma0(), f.nu())); })
       .def("__repr__",
            [](const SingularValueFilter& f) {
              return py::str("SingularValueFilter(sigma0={}, nu={})").format(f.sigma0(), f.nu());
            })
-      .def(py::pickle([](const SingularValueFilter& f) { return py::make_tuple(f.sigma0(), f.nu()); },
-                      [](const py::tuple& state) {
-                        return SingularValueFilter(state[0].cast<double>(),
-                                                   state[1].cast<double>());
-                      }));
+      .def(py::pickle(
+          [](const SingularValueFilter& f) { return py::make_tuple(f.sigma0(), f.nu()); },
+          [](const py::tuple& state) {
+            return SingularValueFilter(state[0].cast<double>(), state[1].cast<double>());
+          }));
   m.def(
       "filter_singular_values",
       [](const ArrayLike& J, double sigma0, double nu) {

@@ -24,7 +24,9 @@ py::object random(const Chain& chain, const std::optional<py::ssize_t>& count,
   JointVector lower = chain.lower();
   JointVector upper = chain.upper();
   for (int i = 0; i < chain.dof(); ++i) {
-    if (std::isfinite(lower[i]) && std::isfinite(upper[i])) {
+    const bool below = std::isfinite(lower[i]);
+    const bool above = std::isfinite(upper[i]);
+    if (below && above) {
       continue;
     }
     const auto k = static_cast<std::size_t>(i);
@@ -32,8 +34,13 @@ py::object random(const Chain& chain, const std::optional<py::ssize_t>& count,
       throw InvalidArgument(chain.joint_names()[k], "a joint without limits",
                             "limits to draw from (Chain.with_limits)");
     }
-    lower[i] = -std::numbers::pi;  // a continuous joint: every angle once
-    upper[i] = std::numbers::pi;
+    // Every angle once: in +-pi, or from the one limit there is.
+    if (below) {
+      upper[i] = lower[i] + 2 * std::numbers::pi;
+    } else {
+      upper[i] = above ? upper[i] : std::numbers::pi;
+      lower[i] = upper[i] - 2 * std::numbers::pi;
+    }
   }
   const py::object generator = py::module_::import("numpy.random").attr("default_rng")(rng);
   const py::object size = count ? py::object(py::make_tuple(*count, chain.dof()))
@@ -45,19 +52,20 @@ py::object random(const Chain& chain, const std::optional<py::ssize_t>& count,
 Chain with_limits(const Chain& chain, const py::object& lower, const py::object& upper,
                   const py::object& velocity, const py::object& acceleration) {
   std::vector<JointLimits> limits = chain.limits();
-  const auto set = [&](const py::object& values, const char* name, double JointLimits::*member) {
+  const auto set = [&](const py::object& values, const char* name, double JointLimits::*member,
+                       auto read_numbers) {
     if (values.is_none()) {
       return;
     }
-    const SmallVector numbers = read_limits(values, name, chain.dof());
+    const SmallVector numbers = read_numbers(values, name, chain.dof());
     for (std::size_t i = 0; i < limits.size(); ++i) {
       limits[i].*member = numbers[static_cast<Eigen::Index>(i)];
     }
   };
-  set(lower, "lower", &JointLimits::lower);
-  set(upper, "upper", &JointLimits::upper);
-  set(velocity, "velocity_limits", &JointLimits::velocity);
-  set(acceleration, "acceleration_limits", &JointLimits::acceleration);
+  set(lower, "lower", &JointLimits::lower, read_limits);
+  set(upper, "upper", &JointLimits::upper, read_limits);
+  set(velocity, "velocity_limits", &JointLimits::velocity, read_rates);
+  set(acceleration, "acceleration_limits", &JointLimits::acceleration, read_rates);
   return chain.with_limits(limits);
 }
 
@@ -76,6 +84,9 @@ py::tuple to_state(const SE3& T) {
 
 SE3 se3_from_state(const py::handle& state) {
   const auto numbers = state.cast<std::vector<double>>();
+  if (numbers.size() != 12) {
+    throw InvalidArgument("state", std::to_string(numbers.size()) + " numbers", "12");
+  }
   SE3 T;
   T.rotation = Eigen::Map<const Eigen::Matrix3d>(numbers.data());
   T.translation = Eigen::Map<const Eigen::Vector3d>(numbers.data() + 9);
@@ -123,32 +134,36 @@ int read_frame(const Chain& chain, const py::object& frame, const char* name) {
   if (frame.is_none()) {
     return chain.tool();
   }
-  if (py::isinstance<py::str>(frame)) {
-    return chain.frame_index(frame.cast<std::string>(), name);
+  // The C API, because a cast would throw for what does not fit: a huge int, a lone surrogate.
+  if (PyUnicode_Check(frame.ptr())) {
+    if (const char* utf8 = PyUnicode_AsUTF8(frame.ptr())) {
+      return chain.frame_index(utf8, name);
+    }
   }
   const auto count = static_cast<py::ssize_t>(chain.frames().size());
-  if (py::isinstance<py::int_>(frame)) {
-    const auto index = frame.cast<py::ssize_t>();
-    if (index >= 0 && index < count) {
+  if (PyLong_Check(frame.ptr())) {
+    const py::ssize_t index = PyLong_AsSsize_t(frame.ptr());
+    if (PyErr_Occurred() == nullptr && index >= 0 && index < count) {
       return static_cast<int>(index);
     }
   }
+  PyErr_Clear();
   throw InvalidArgument(name, std::string(py::repr(frame)),
                         "the name of a frame or an index from 0 to " + std::to_string(count - 1));
 }
 
 SmallVector read_limits(const py::object& values, const char* name, int n) {
-  const py::module_ numpy = py::module_::import("numpy");
-  const auto array = numpy.attr("asarray")(values, py::arg("dtype") = "float64").cast<Array>();
-  if (array.ndim() != 1 || array.shape(0) != n) {
-    throw InvalidArgument(name, "shape " + std::string(py::str(array.attr("shape"))),
-                          "(" + std::to_string(n) + ",)");
+  return vector_at(read(values, name, {n}, false, Finite::kNo), 0);
+}
+
+SmallVector read_rates(const py::object& values, const char* name, int n) {
+  const SmallVector rates = read_limits(values, name, n);
+  for (const double rate : rates) {
+    if (!(rate > 0.0)) {
+      throw InvalidArgument(name, text(rate), "numbers > 0 (inf: unlimited)");
+    }
   }
-  SmallVector result(n);
-  for (int i = 0; i < n; ++i) {
-    result[i] = array.at(i);
-  }
-  return result;
+  return rates;
 }
 
 ChainClass bind_chain(py::module_& m) {
@@ -157,6 +172,15 @@ ChainClass bind_chain(py::module_& m) {
 Made by Chain.from_dh, on_omni_base or the functions of thing_kin.robots. Configurations q are (n,)
 in the order of `names`, rad and m; a leading axis is a batch. Two chains of equal content are equal;
 a chain can be hashed, copied, pickled and shared between threads.
+
+Examples
+--------
+>>> import thing_kin as tk
+>>> robot = tk.robots.ur5()
+>>> robot
+Chain('ur5', n=6)
+>>> robot.names
+('q0', 'q1', 'q2', 'q3', 'q4', 'q5')
 )");
   chain
       .def_static(
@@ -223,13 +247,20 @@ array([1.5, 0. , 0. ])
           "acceleration_limits", [](const Chain& c) { return frozen(c.acceleration_limits()); },
           "Acceleration limits, (n,), rad/s^2 or m/s^2; inf: unlimited.")
       .def_property_readonly(
-          "base_joints", [](const Chain& c) { return c.base_joints(); },
+          "base_joints",
+          [](const Chain& c) -> std::optional<std::tuple<int, int, int>> {
+            if (!c.base_joints()) {
+              return std::nullopt;
+            }
+            const auto& [x, y, theta] = *c.base_joints();
+            return std::tuple(x, y, theta);
+          },
           "Places in q of the base's x, y and theta; None without an omnidirectional base.")
       .def("random", &random, py::arg("n") = py::none(), py::kw_only(), py::arg("rng") = py::none(),
            R"(Configurations drawn uniformly within the limits.
 
 Exactly np.random.default_rng(rng).uniform(lower, upper, size); a revolute joint without limits is
-drawn in +-pi.
+drawn in +-pi, one with a single limit in the turn next to it.
 
 Parameters
 ----------
@@ -262,7 +293,7 @@ Examples
           py::arg("tool"), py::kw_only(), py::arg("frame") = "tool",
           R"(The same chain with a fixed frame added at its end.
 
-A frame of the same name at the old end becomes 'flange'.
+A frame of the same name at the old end becomes 'flange' (flange2, ... if there is one).
 
 Parameters
 ----------
@@ -306,9 +337,7 @@ array([3., 3., 3., 3., 3., 3.])
            })
       .def("__str__", [](const Chain& c) { return to_table(c); })
       .def("__repr__",
-           [](const Chain& c) {
-             return py::str("Chain({!r}, n={})").format(c.name(), c.dof());
-           })
+           [](const Chain& c) { return py::str("Chain({!r}, n={})").format(c.name(), c.dof()); })
       .def("__copy__", [](const Chain& c) { return c; })
       .def("__deepcopy__", [](const Chain& c, const py::dict& /*memo*/) { return c; })
       .def(py::pickle([](const Chain& c) { return to_state(c); },

@@ -12,4 +12,7 @@ int read_frame(const Chain& chain, const pybind11::object& frame, const char* na
 /// n numbers, infinities allowed.
 SmallVector read_limits(const pybind11::object& values, const char* name, int n);
 
+/// n positive numbers, infinities allowed.
+SmallVector read_rates(const pybind11::object& values, const char* name, int n);
+
 }  // namespace thing_kin::python

@@ -46,7 +46,8 @@ PYBIND11_MODULE(_kdl, m) {
   using namespace thing_kin::python;
   py::module_::import("thing_kin._core");  // brings the type of Chain
   m.doc() = "The KDL back end. Private: use thing_kin.kdl.";
-  py::class_<LockedKdlChain>(m, "KdlChain", R"(A chain as KDL sees it, computed by KDL's own solvers.
+  py::class_<LockedKdlChain>(m, "KdlChain",
+                             R"(A chain as KDL sees it, computed by KDL's own solvers.
 
 For users who come from KDL, and as an independent check. Conventions are thing_kin's.
 

@@ -1,23 +1,20 @@
 #include "model/omni_base.hpp"
 
-#include <pybind11/stl.h>
-
 #include "array.hpp"
 #include "bindings.hpp"
+#include "model/chain.hpp"
 #include "thing_kin/core/error.hpp"
 
 namespace thing_kin::python {
 
-BaseLimits with_ranges(BaseLimits limits, const Ranges& ranges) {
-  if (!ranges) {
+BaseLimits with_ranges(BaseLimits limits, const py::object& ranges) {
+  if (ranges.is_none()) {
     return limits;
   }
-  if (ranges->size() != 3) {
-    throw InvalidArgument("base_limits", std::to_string(ranges->size()) + " ranges",
-                          "three pairs (lower, upper), of x, y and theta");
-  }
+  const Batch pairs = read(ranges, "base_limits", {3, 2}, false, Finite::kNo);
   for (std::size_t i = 0; i < 3; ++i) {
-    std::tie(limits[i].lower, limits[i].upper) = (*ranges)[i];
+    limits[i].lower = pairs.data[2 * i];
+    limits[i].upper = pairs.data[2 * i + 1];
     if (!(limits[i].lower <= limits[i].upper)) {
       throw InvalidArgument("base_limits",
                             "(" + text(limits[i].lower) + ", " + text(limits[i].upper) + ")",
@@ -29,10 +26,14 @@ BaseLimits with_ranges(BaseLimits limits, const Ranges& ranges) {
 
 namespace {
 
-void set_rates(BaseLimits& limits, const std::optional<std::array<double, 3>>& rates,
+void set_rates(BaseLimits& limits, const py::object& values, const char* name,
                double JointLimits::*member) {
-  for (std::size_t i = 0; rates && i < 3; ++i) {
-    limits[i].*member = (*rates)[i];
+  if (values.is_none()) {
+    return;
+  }
+  const SmallVector rates = read_rates(values, name, 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    limits[i].*member = rates[static_cast<Eigen::Index>(i)];
   }
 }
 
@@ -41,16 +42,16 @@ void set_rates(BaseLimits& limits, const std::optional<std::array<double, 3>>& r
 void bind_omni_base(py::module_& m) {
   m.def(
       "on_omni_base",
-      [](const Chain& arm, const py::object& mount, const Ranges& base_limits,
-         const std::string& order, const std::optional<std::array<double, 3>>& velocity,
-         const std::optional<std::array<double, 3>>& acceleration, const std::string& name) {
+      [](const Chain& arm, const py::object& mount, const py::object& base_limits,
+         const std::string& order, const py::object& velocity, const py::object& acceleration,
+         const std::string& name) {
         SE3 T_base_arm;
         if (!mount.is_none()) {
           T_base_arm = read_pose(read(mount, "mount", {4, 4}, false).data, "mount");
         }
         BaseLimits limits = with_ranges(default_base_limits(), base_limits);
-        set_rates(limits, velocity, &JointLimits::velocity);
-        set_rates(limits, acceleration, &JointLimits::acceleration);
+        set_rates(limits, velocity, "base_velocity_limits", &JointLimits::velocity);
+        set_rates(limits, acceleration, "base_acceleration_limits", &JointLimits::acceleration);
         return on_omni_base(arm, T_base_arm, limits, joint_order_from_string(order), name);
       },
       py::arg("arm"), py::arg("mount") = py::none(), py::kw_only(),

@@ -1,7 +1,5 @@
 #include "thing_kin/model/robots.hpp"
 
-#include <pybind11/stl.h>
-
 #include "array.hpp"
 #include "bindings.hpp"
 #include "model/omni_base.hpp"
@@ -36,7 +34,7 @@ array([2.094, 2.094, 3.142, 3.142, 3.142, 3.142])
 )");
   m.def(
       "thing",
-      [](const std::string& order, const Ranges& base_limits) {
+      [](const std::string& order, const py::object& base_limits) {
         return robots::thing(joint_order_from_string(order),
                              with_ranges(robots::ridgeback_limits(), base_limits));
       },
@@ -65,7 +63,7 @@ array([ 0.526141, -1.1743  ,  0.6646  ])
 )");
   m.def(
       "pioneer_lx_ur5",
-      [](const py::object& mount, const std::string& order, const Ranges& base_limits) {
+      [](const py::object& mount, const std::string& order, const py::object& base_limits) {
         SE3 T_base_arm = robots::default_pioneer_lx_mount();
         if (!mount.is_none()) {
           T_base_arm = read_pose(read(mount, "mount", {4, 4}, false).data, "mount");

@@ -55,7 +55,8 @@ TEST(So3, HalfTurnHasTheFirstComponentPositive) {
     const Eigen::Matrix3d R = 2 * axis * axis.transpose() - Eigen::Matrix3d::Identity();
     const Eigen::Vector3d phi_vector = so3_log(R);
     EXPECT_NEAR(phi_vector.norm(), kPi, 1e-15);
-    const bool flip = axis[0] < 0 || (axis[0] == 0 && (axis[1] < 0 || (axis[1] == 0 && axis[2] < 0)));
+    const bool flip =
+        axis[0] < 0 || (axis[0] == 0 && (axis[1] < 0 || (axis[1] == 0 && axis[2] < 0)));
     EXPECT_LT((phi_vector - (flip ? -kPi : kPi) * axis).norm(), 1e-14);
   }
 }

@@ -111,8 +111,8 @@ TEST(TaskPriority, StepLimitKeepsDirections) {
 TEST(TaskPriority, OneSolverServesFourThreads) {
   test::Generator rng(4);
   const Problem problem(rng);
-  const TaskPriorityOptions options{Scheme::kSiciliano, SelectivelyDamped(),
-                                    SingularValueFilter(0.01, 10.0), {}};
+  const TaskPriorityOptions options{
+      Scheme::kSiciliano, SelectivelyDamped(), SingularValueFilter(0.01, 10.0), {}};
   const TaskPriority solver(problem.robot,
                             {std::make_shared<PoseTask>(), std::make_shared<BaseTask>()}, options);
   const std::array<const double*, 2> targets = {problem.T_goal.data(), problem.base_goal.data()};

@@ -30,8 +30,9 @@ Jacobian jacobian_of(const Chain& chain, const Posture& posture, int frame) {
 }  // namespace
 
 Task::Task(double gain, std::string frame) : gain_(gain), frame_(std::move(frame)) {
-  if (!(std::isfinite(gain) && gain > 0.0)) {
-    throw InvalidArgument("gain", text(gain), "a finite number > 0");
+  constexpr double kLargest = 1e6;  // far beyond use, and no product with an error overflows
+  if (!(gain > 0.0 && gain <= kLargest)) {
+    throw InvalidArgument("gain", text(gain), "a number > 0, at most 1e6");
   }
 }
 
@@ -77,7 +78,8 @@ void PostureTask::evaluate(const Chain& chain, const Posture& /*posture*/, int /
                            const double* q, const double* target, TaskValue& value) const noexcept {
   const int n = chain.dof();
   value.jacobian.setIdentity(n, n);
-  value.error = Eigen::Map<const Eigen::VectorXd>(target, n) - Eigen::Map<const Eigen::VectorXd>(q, n);
+  value.error =
+      Eigen::Map<const Eigen::VectorXd>(target, n) - Eigen::Map<const Eigen::VectorXd>(q, n);
   if (chain.base_joints()) {
     double& theta = value.error[(*chain.base_joints())[2]];
     theta = wrapped(theta);

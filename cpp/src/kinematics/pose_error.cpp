@@ -30,8 +30,7 @@ ErrorFrame error_frame_from_string(const std::string& name) {
 
 Vector6 pose_error(const SE3& T, const SE3& T_goal) noexcept {
   Vector6 error;
-  error << T_goal.translation - T.translation,
-      so3_log(T_goal.rotation * T.rotation.transpose());
+  error << T_goal.translation - T.translation, so3_log(T_goal.rotation * T.rotation.transpose());
   return error;
 }
 

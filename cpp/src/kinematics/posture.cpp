@@ -42,7 +42,8 @@ void place_joints(const Chain& chain, const double* q, Posture& posture) noexcep
 
 SE3 frame_pose(const Chain& chain, const Posture& posture, int frame) noexcept {
   const Chain::Frame& f = chain.frames()[static_cast<std::size_t>(frame)];
-  return f.joints == 0 ? f.offset : posture.joint[static_cast<std::size_t>(f.joints - 1)] * f.offset;
+  return f.joints == 0 ? f.offset
+                       : posture.joint[static_cast<std::size_t>(f.joints - 1)] * f.offset;
 }
 
 SE3 forward_kinematics(const Chain& chain, const double* q, int frame) noexcept {

@@ -57,8 +57,7 @@ Eigen::Vector3d so3_log(const Eigen::Matrix3d& R) {
   const Eigen::Vector3d v = q.tail<3>();
   const double sine = v.norm();
   // atan2(s, w)/s tends to 1/w: below this s the next term, s^2/3, is lost in rounding.
-  const double half_angle_per_sine =
-      sine < 1e-8 ? 1.0 / q[0] : std::atan2(sine, q[0]) / sine;
+  const double half_angle_per_sine = sine < 1e-8 ? 1.0 / q[0] : std::atan2(sine, q[0]) / sine;
   return 2.0 * half_angle_per_sine * v;
 }
 
@@ -93,7 +92,7 @@ Eigen::Vector4d quaternion_from_rotation(const Eigen::Matrix3d& R) {
 }
 
 Eigen::Matrix3d rotation_from_quaternion(const Eigen::Vector4d& wxyz) {
-  const Eigen::Vector4d q = wxyz / wxyz.norm();
+  const Eigen::Vector4d q = wxyz / wxyz.stableNorm();
   const Eigen::Matrix3d S = skew(q.tail<3>());
   return Eigen::Matrix3d::Identity() + 2.0 * q[0] * S + 2.0 * S * S;
 }

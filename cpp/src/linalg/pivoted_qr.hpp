@@ -6,8 +6,8 @@
 
 namespace thing_kin {
 
-/// W P = Q R of a tall (r, k) matrix, r >= k, by Householder reflections with column pivoting. Small
-/// and free of allocation: for the singular value decomposition only.
+/// W P = Q R of a tall (r, k) matrix, r >= k, by Householder reflections with column pivoting.
+/// Small and free of allocation: for the singular value decomposition only.
 class PivotedQr {
  public:
   /// W is overwritten: its upper triangle becomes R.

@@ -15,8 +15,8 @@ SmallVector damped_gains(const Svd& svd, double lambda) noexcept {
 SmallVector damped_gains(const Svd& svd, const SmallVector& lambda) noexcept {
   SmallVector gains = exact_gains(svd);
   for (Eigen::Index i = 0; i < gains.size(); ++i) {
-    if (lambda[i] > 0.0) {
-      gains[i] = svd.sigma[i] / (svd.sigma[i] * svd.sigma[i] + lambda[i]);
+    if (lambda[i] > 0.0) {  // sigma/(sigma^2 + lambda), without the square that could overflow
+      gains[i] = svd.sigma[i] > 0.0 ? 1.0 / (svd.sigma[i] + lambda[i] / svd.sigma[i]) : 0.0;
     }
   }
   return gains;

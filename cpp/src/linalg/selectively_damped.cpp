@@ -7,9 +7,10 @@ namespace thing_kin {
 
 namespace {
 
-// rho_j = sum_l ||dp_l/dq_j||: how far the blocks move with joint j, from A = U diag(sigma) V^T.
+// rho_j/sigma_1, rho_j = sum_l ||dp_l/dq_j||: how far the blocks move with joint j, from
+// A = U diag(sigma) V^T. Relative to sigma_1, so that no square overflows.
 JointVector block_motion(const Svd& svd, const RowBlocks& blocks) {
-  const SmallMatrix scaled = svd.u * svd.sigma.asDiagonal();
+  const SmallMatrix scaled = svd.u * (svd.sigma / svd.sigma[0]).asDiagonal();
   const SmallMatrix A = scaled * svd.thin_v().transpose();
   JointVector rho = JointVector::Zero(A.cols());
   int row = 0;
@@ -44,12 +45,15 @@ void clamp_max_abs(JointVector& v, double bound) noexcept {
 
 JointVector selectively_damped_step(const Svd& svd, const RowBlocks& blocks, const SmallVector& e,
                                     double gamma_max) noexcept {
-  const JointVector rho = block_motion(svd, blocks);
   JointVector step = JointVector::Zero(svd.v.rows());
+  if (svd.rank == 0) {
+    return step;
+  }
+  const JointVector rho = block_motion(svd, blocks);
   for (int i = 0; i < svd.rank; ++i) {
     const auto v = svd.v.col(i);
     const double N = block_norm_sum(svd, blocks, i);
-    const double M = v.cwiseAbs().dot(rho) / svd.sigma[i];
+    const double M = v.cwiseAbs().dot(rho) * (svd.sigma[0] / svd.sigma[i]);
     const double gamma = gamma_max * std::min(1.0, N / M);
     JointVector phi = (svd.u.col(i).dot(e) / svd.sigma[i]) * v;
     clamp_max_abs(phi, gamma);

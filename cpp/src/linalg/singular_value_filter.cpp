@@ -28,10 +28,9 @@ SingularValueFilter::SingularValueFilter(double sigma0, double nu) : sigma0_(sig
     throw InvalidArgument("nu", text(nu), "a finite number >= 0");
   }
   if (!is_increasing(sigma0, nu)) {
-    throw InvalidArgument("sigma0",
-                          text(sigma0) + " with nu = " + text(nu) +
-                              ", a filter that is not increasing",
-                          "a smaller sigma0");
+    throw InvalidArgument(
+        "sigma0", text(sigma0) + " with nu = " + text(nu) + ", a filter that is not increasing",
+        "a smaller sigma0");
   }
 }
 

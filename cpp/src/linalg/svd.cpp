@@ -21,8 +21,7 @@ constexpr double kNegligible = 1e-140;
 
 /// Columns of a (k, k) matrix as vectors of a size that the compiler knows, for the common k.
 template <int K>
-using Column =
-    Eigen::Map<Eigen::Matrix<double, K, 1, Eigen::ColMajor, (K > 0 ? K : kMaxDof), 1>>;
+using Column = Eigen::Map<Eigen::Matrix<double, K, 1, Eigen::ColMajor, (K > 0 ? K : kMaxDof), 1>>;
 
 template <int K>
 void rotate(Column<K> a, Column<K> b, double c, double s) {

@@ -29,6 +29,16 @@ bool is_permutation_of_indices(std::vector<int> order, std::size_t n) {
   return order == indices;
 }
 
+// `name`, or name2, name3, ... if it is taken.
+std::string free_frame_name(const std::vector<Chain::Frame>& frames, const std::string& name) {
+  std::string candidate = name;
+  const auto is_candidate = [&](const Chain::Frame& frame) { return frame.name == candidate; };
+  for (int i = 2; std::any_of(frames.begin(), frames.end(), is_candidate); ++i) {
+    candidate = std::string(name).append(std::to_string(i));
+  }
+  return candidate;
+}
+
 // Where a joint's own name or frame is not given, they are numbered: q0, q1, ... and frame1, ...
 std::vector<Segment> segments_of(std::span<const DhRow> rows) {
   std::vector<Segment> segments;
@@ -140,8 +150,8 @@ int Chain::frame_index(const std::string& name, const std::string& argument) con
 Chain Chain::with_tool(const SE3& tool, const std::string& frame) const {
   ChainDescription description = description_;
   Segment& last = description.segments.back();
-  if (last.frame == frame) {
-    last.frame = "flange";  // the name moves on to the new end of the chain
+  if (last.frame == frame) {  // the name moves on to the new end of the chain
+    last.frame = free_frame_name(frames_, "flange");
   }
   description.segments.push_back({frame, "", JointType::kFixed, SE3{}, tool, {}});
   return Chain(std::move(description));
@@ -169,11 +179,10 @@ Chain Chain::with_limits(std::span<const JointLimits> limits) const {
 std::string to_table(const Chain& chain) {
   std::ostringstream out;
   char line[128];
-  out << chain.name() << ": " << chain.dof() << " joints, " << chain.frames().size()
-      << " frames (" << chain.frames().front().name << " ... " << chain.frames().back().name
-      << ")\n";
-  std::snprintf(line, sizeof line, "%3s  %-20s %-10s %10s %10s %10s %13s  %s\n", "", "joint", "type",
-                "lower", "upper", "velocity", "acceleration", "unit");
+  out << chain.name() << ": " << chain.dof() << " joints, " << chain.frames().size() << " frames ("
+      << chain.frames().front().name << " ... " << chain.frames().back().name << ")\n";
+  std::snprintf(line, sizeof line, "%3s  %-20s %-10s %10s %10s %10s %13s  %s\n", "", "joint",
+                "type", "lower", "upper", "velocity", "acceleration", "unit");
   out << line;
   for (int i = 0; i < chain.dof(); ++i) {
     const auto k = static_cast<std::size_t>(i);
@@ -184,7 +193,9 @@ std::string to_table(const Chain& chain) {
                   type == JointType::kRevolute ? "rad" : "m");
     out << line;
   }
-  return out.str();
+  std::string table = out.str();
+  table.pop_back();  // the last end of line
+  return table;
 }
 
 }  // namespace thing_kin

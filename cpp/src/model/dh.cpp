@@ -63,8 +63,8 @@ SE3 dh_transform(double d, double theta, double a, double alpha) {
 }
 
 Segment to_segment(const DhRow& row) {
-  return {row.frame, row.joint == JointType::kFixed ? "" : row.name, row.joint, SE3{},
-          dh_transform(row.d, row.theta, row.a, row.alpha), row.limits};
+  return {row.frame, row.joint == JointType::kFixed ? "" : row.name,   row.joint,
+          SE3{},     dh_transform(row.d, row.theta, row.a, row.alpha), row.limits};
 }
 
 }  // namespace thing_kin

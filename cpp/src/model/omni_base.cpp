@@ -50,7 +50,8 @@ Chain on_omni_base(const Chain& arm, const SE3& mount, const BaseLimits& limits,
                    std::string name) {
   const ChainDescription& of_arm = arm.description();
   if (arm.base_joints()) {
-    throw InvalidArgument("arm", quoted(arm.name()).append(", which has a base"), "an arm without one");
+    throw InvalidArgument("arm", quoted(arm.name()).append(", which has a base"),
+                          "an arm without one");
   }
   ChainDescription description;
   description.name = name.empty() ? arm.name() + " on an omnidirectional base" : std::move(name);

@@ -72,8 +72,7 @@ BaseLimits pioneer_lx_limits() {
 
 Chain thing(JointOrder order, const BaseLimits& base_limits) {
   // Rows 5 and 6 of [M17] Table A.1 mount the arm on the base.
-  const SE3 mount =
-      dh_transform(0.653, 0.0, 0.27, 0.0) * dh_transform(0.0, kPi / 2, 0.01, 0.0);
+  const SE3 mount = dh_transform(0.653, 0.0, 0.27, 0.0) * dh_transform(0.0, kPi / 2, 0.01, 0.0);
   return on_omni_base(ur10(), mount, base_limits, order, "thing");
 }
 

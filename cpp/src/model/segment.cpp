@@ -39,8 +39,7 @@ JointType joint_type_from_string(const std::string& name) {
 
 void check(const JointLimits& limits) {
   if (std::isnan(limits.lower) || std::isnan(limits.upper)) {
-    throw InvalidArgument("lower, upper", text(limits.lower) + ", " + text(limits.upper),
-                          "no NaN");
+    throw InvalidArgument("lower, upper", text(limits.lower) + ", " + text(limits.upper), "no NaN");
   }
   if (limits.lower > limits.upper || limits.lower == HUGE_VAL || limits.upper == -HUGE_VAL) {
     throw InvalidArgument("lower", text(limits.lower) + " with upper = " + text(limits.upper),

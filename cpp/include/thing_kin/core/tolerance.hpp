@@ -24,6 +24,9 @@ inline constexpr double kRotationTolerance = 1e-6;
 /// the axis is noise and is chosen by rule (so3.hpp).
 inline constexpr double kHalfTurnTolerance = 8 * kEpsilon;
 
+/// tan(angle) of [M17] (3.18) is refused this close to its pole at pi/2, rad.
+inline constexpr double kQuarterTurnMargin = 1e-9;
+
 /// An angle this close to a whole number of right angles is meant to be one, so that Denavit-
 /// Hartenberg rows with pi/2 give exact zeros and ones.
 inline constexpr double kRightAngleTolerance = 4 * kEpsilon;

@@ -55,8 +55,8 @@ struct TaskPriorityStep {
 /// whatever regularisation the inverse has (erratum to (4.15)-(4.18)).
 class TaskPriority {
  public:
-  /// Throws InvalidArgument: no task or too many, a scheme that can't take them, an unknown frame, a
-  /// base task without a base, a step limit of the wrong size or not positive.
+  /// Throws InvalidArgument: no task or too many, a scheme that can't take them, an unknown frame,
+  /// a base task without a base, a step limit of the wrong size or not positive.
   TaskPriority(Chain chain, std::vector<std::shared_ptr<const Task>> tasks,
                TaskPriorityOptions options);
 
@@ -79,9 +79,9 @@ class TaskPriority {
   TaskPriorityOptions options_;
 };
 
-/// Chooses the levels' scales so that no |dq_j| exceeds its limit: whole contributions are kept from
-/// the highest priority down, the first that does not fit is shortened, and those below get what
-/// room is left. The direction of no level changes, so that priorities stay strict.
+/// Chooses the levels' scales so that no |dq_j| exceeds its limit: whole contributions are kept
+/// from the highest priority down, the first that does not fit is shortened, and those below get
+/// what room is left. The direction of no level changes, so that priorities stay strict.
 void scale_to_limit(const JointVector& limit, TaskPriorityStep& step) noexcept;
 
 }  // namespace thing_kin

@@ -11,7 +11,7 @@ namespace thing_kin {
 enum class ReferenceFrame : std::uint8_t {
   kWorldAligned,  ///< velocity of the frame's origin, axes of the root
   kBody,          ///< velocity of the frame's origin, axes of the frame
-  kWorld,         ///< spatial twist: velocity of the point now at the root's origin, axes of the root
+  kWorld,  ///< spatial twist: velocity of the point now at the root's origin, axes of the root
 };
 
 ReferenceFrame reference_frame_from_string(const std::string& name);

@@ -21,9 +21,7 @@ struct SE3 {
   Eigen::Vector3d operator*(const Eigen::Vector3d& point) const {
     return rotation * point + translation;
   }
-  SE3 inverse() const {
-    return {rotation.transpose(), -(rotation.transpose() * translation)};
-  }
+  SE3 inverse() const { return {rotation.transpose(), -(rotation.transpose() * translation)}; }
   Eigen::Matrix4d matrix() const;
 
   bool operator==(const SE3&) const = default;

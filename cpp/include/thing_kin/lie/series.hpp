@@ -6,8 +6,8 @@ namespace thing_kin {
 
 /// The entire functions phi_m(t) = sum_k (-t)^k / (2k + m)!, with t = theta^2. Every coefficient of
 /// SO(3) and SE(3) is one of them or a ratio of two, free of cancellation and of a case for zero:
-/// phi_1 = sin(theta)/theta, phi_2 = (1 - cos(theta))/theta^2, phi_3 = (theta - sin(theta))/theta^3,
-/// and phi_{m+2} = (1/m! - phi_m)/t.
+/// phi_1 = sin(theta)/theta, phi_2 = (1 - cos(theta))/theta^2, phi_3 = (theta -
+/// sin(theta))/theta^3, and phi_{m+2} = (1/m! - phi_m)/t.
 template <int m>
 double phi(double t) {
   static_assert(m >= 1 && m <= 5);

@@ -27,7 +27,7 @@ Eigen::Matrix3d so3_right_jacobian_inverse(const Eigen::Vector3d& phi);
 /// Unit quaternion (w, x, y, z) with w >= 0; at w = 0 the first nonzero component is positive.
 Eigen::Vector4d quaternion_from_rotation(const Eigen::Matrix3d& R);
 
-/// Rotation of a quaternion (w, x, y, z), which need not be normalised but must not be zero.
+/// Rotation of a quaternion (w, x, y, z), which need not be normalized but must not be zero.
 Eigen::Matrix3d rotation_from_quaternion(const Eigen::Vector4d& wxyz);
 
 /// R = Rz(yaw) Ry(pitch) Rx(roll), the URDF convention, from (roll, pitch, yaw).

@@ -30,6 +30,7 @@ class SingularValueFilter {
 };
 
 /// The filtered matrix, [M17] (4.13).
-SmallMatrix filter_singular_values(const SmallMatrix& A, const SingularValueFilter& filter) noexcept;
+SmallMatrix filter_singular_values(const SmallMatrix& A,
+                                   const SingularValueFilter& filter) noexcept;
 
 }  // namespace thing_kin

@@ -16,8 +16,8 @@ struct Svd {
 
 /// One-sided Jacobi after a pivoted QR (Drmac & Veselic 2008): small singular values keep their
 /// relative accuracy, and nothing is allocated. A must be finite, at most kMaxDof on a side.
-/// `scale` says how large the entries were that A was computed from: what is left of a larger matrix
-/// after a projection is noise below its rounding error, and counts as zero.
+/// `scale` says how large the entries were that A was computed from: what is left of a larger
+/// matrix after a projection is noise below its rounding error, and counts as zero.
 void decompose(const SmallMatrix& A, Svd& svd, double scale = 0.0) noexcept;
 
 }  // namespace thing_kin

@@ -17,8 +17,8 @@ struct ChainDescription {
   std::string name;
   std::string root = "world";  ///< name of the frame that the first segment stands in
   std::vector<Segment> segments;
-  std::vector<int> order;       ///< order[i]: index in q of the i-th joint from the root
-  bool has_omni_base = false;   ///< the first three joints are x, y, theta of a planar base
+  std::vector<int> order;      ///< order[i]: index in q of the i-th joint from the root
+  bool has_omni_base = false;  ///< the first three joints are x, y, theta of a planar base
 
   bool operator==(const ChainDescription&) const = default;
 };

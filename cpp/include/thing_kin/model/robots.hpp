@@ -23,7 +23,7 @@ Chain thing(JointOrder order = JointOrder::kArmFirst,
             const BaseLimits& base_limits = ridgeback_limits());
 
 /// Where the UR5 stands on the Pioneer LX unless the caller knows better: on the middle of the
-/// deck, 0.075 m ahead of the centre of rotation and 0.448 m above the floor, not turned.
+/// deck, 0.075 m ahead of the center of rotation and 0.448 m above the floor, not turned.
 SE3 default_pioneer_lx_mount();
 
 /// Pioneer LX + UR5, [X21] 4.1. The real base has two driven wheels and cannot move sideways.

@@ -27,8 +27,8 @@ struct JointLimits {
 /// Throws InvalidArgument unless lower <= upper, the rates are positive and nothing is NaN.
 void check(const JointLimits& limits);
 
-/// One link of a chain: its frame is parent * before * joint(q) * after, where the joint turns about
-/// or slides along z. Denavit-Hartenberg rows and URDF joints both come down to this.
+/// One link of a chain: its frame is parent * before * joint(q) * after, where the joint turns
+/// about or slides along z. Denavit-Hartenberg rows and URDF joints both come down to this.
 struct Segment {
   std::string frame;
   std::string joint;  ///< empty if fixed

@@ -1,0 +1,1209 @@
+"""
+The C++ core of thing_kin. Private: import its names from thing_kin.
+"""
+from __future__ import annotations
+import collections.abc
+import numpy
+import numpy.typing
+import typing
+from . import lie
+from . import robots
+__all__: list[str] = ['BaseTask', 'Chain', 'DH', 'Damped', 'Exact', 'MAX_DOF', 'OrientationTask', 'PoseTask', 'PositionTask', 'PostureTask', 'SelectivelyDamped', 'SingularValueFilter', 'Task', 'TaskPriority', 'TaskPriorityStep', 'filter_singular_values', 'lie', 'null_space', 'null_space_projector', 'on_omni_base', 'pinv', 'pose_error', 'robots', 'selectively_damped_step', 'transform']
+class SingularValueFilter:
+    """
+    Lifts small singular values to at least sigma0, [M17] (4.12).
+    
+    h(s) = (s^3 + nu s^2 + 2 s + 2 sigma0)/(s^2 + nu s + 2), after Colome & Torras: h(0) = sigma0,
+    h(s) > s, and h(s) tends to s for large s. It composes with every inverse.
+    
+    Parameters
+    ----------
+    sigma0 : float, >= 0
+        What a zero singular value becomes.
+    nu : float, >= 0
+        Shape: a larger nu changes the others less.
+    
+    Raises
+    ------
+    ValueError
+        If the filter is not increasing in s.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> h = tk.SingularValueFilter(sigma0=0.01, nu=10.0)
+    >>> h(0.0)
+    0.01
+    """
+    def __call__(self, s: numpy.typing.ArrayLike) -> float | numpy.typing.NDArray[numpy.float64]:
+        """
+        Filtered singular values, elementwise; a number or (N,).
+        """
+    def __eq__(self, arg0: SingularValueFilter) -> bool:
+        ...
+    def __getstate__(self) -> tuple[float, float]:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, sigma0: typing.SupportsFloat | typing.SupportsIndex, nu: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
+    @property
+    def nu(self) -> float:
+        """
+        Shape.
+        """
+    @property
+    def sigma0(self) -> float:
+        """
+        Image of zero.
+        """
+class DH:
+    """
+    One standard (distal) Denavit-Hartenberg row, [M17] (3.7).
+    
+    Rz(theta) Tz(d) Tx(a) Rx(alpha). A revolute joint's variable adds to theta, a prismatic one's to d.
+    
+    Parameters
+    ----------
+    d, a : float, m
+    theta, alpha : float, rad
+    joint : 'revolute', 'prismatic' or None
+        None (or 'fixed'): a constant row, which has no joint variable.
+    name : str
+        Of the joint; default q0, q1, ... along the chain.
+    frame : str
+        Of the frame after the row; default frame1, frame2, ..., and tool for the last.
+    lower, upper : float, rad or m
+        Default +-pi for a revolute joint, unlimited for a prismatic one.
+    velocity_limit, acceleration_limit : float > 0, rad/s, rad/s^2 (m/s, m/s^2)
+        Default unlimited (inf).
+    
+    Raises
+    ------
+    ValueError
+        If a number is not finite, limits are crossed or rates are not positive.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> tk.DH(a=-0.425, joint="revolute").upper
+    3.141592653589793
+    """
+    def __init__(self, d: typing.SupportsFloat | typing.SupportsIndex = 0.0, theta: typing.SupportsFloat | typing.SupportsIndex = 0.0, a: typing.SupportsFloat | typing.SupportsIndex = 0.0, alpha: typing.SupportsFloat | typing.SupportsIndex = 0.0, joint: str | None = None, *, name: str = '', frame: str = '', lower: typing.SupportsFloat | typing.SupportsIndex | None = None, upper: typing.SupportsFloat | typing.SupportsIndex | None = None, velocity_limit: typing.SupportsFloat | typing.SupportsIndex | None = None, acceleration_limit: typing.SupportsFloat | typing.SupportsIndex | None = None) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def a(self) -> float:
+        """
+        Length along x, m.
+        """
+    @property
+    def acceleration_limit(self) -> float:
+        """
+        rad/s^2 or m/s^2.
+        """
+    @property
+    def alpha(self) -> float:
+        """
+        Twist about x, rad.
+        """
+    @property
+    def d(self) -> float:
+        """
+        Offset along z, m.
+        """
+    @property
+    def frame(self) -> str:
+        """
+        Name of the frame after the row; empty: numbered.
+        """
+    @property
+    def joint(self) -> str:
+        """
+        'revolute', 'prismatic' or 'fixed'.
+        """
+    @property
+    def lower(self) -> float:
+        """
+        Lower limit, rad or m.
+        """
+    @property
+    def name(self) -> str:
+        """
+        Name of the joint; empty: numbered.
+        """
+    @property
+    def theta(self) -> float:
+        """
+        Angle about z, rad.
+        """
+    @property
+    def upper(self) -> float:
+        """
+        Upper limit, rad or m.
+        """
+    @property
+    def velocity_limit(self) -> float:
+        """
+        rad/s or m/s.
+        """
+class Chain:
+    """
+    An immutable serial chain of joints, and its kinematics.
+    
+    Made by Chain.from_dh, on_omni_base or the functions of thing_kin.robots. Configurations q are (n,)
+    in the order of `names`, rad and m; a leading axis is a batch. Two chains of equal content are equal;
+    a chain can be hashed, copied, pickled and shared between threads.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> robot = tk.robots.ur5()
+    >>> robot
+    Chain('ur5', n=6)
+    >>> robot.names
+    ('q0', 'q1', 'q2', 'q3', 'q4', 'q5')
+    """
+    @staticmethod
+    def from_dh(rows: collections.abc.Sequence[DH], *, name: str = 'chain') -> Chain:
+        """
+        Chain from standard Denavit-Hartenberg rows, [M17] (3.7), (3.8).
+        
+        Parameters
+        ----------
+        rows : sequence of DH
+            At least one joint, at most 32.
+        name : str
+        
+        Raises
+        ------
+        ValueError
+            If there is no row or no joint, or two joints or frames have one name.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> arm = tk.Chain.from_dh([tk.DH(a=1.0, joint="revolute"), tk.DH(a=0.5, joint="revolute")])
+        >>> arm.fk([0.0, 0.0])[:3, 3]
+        array([1.5, 0. , 0. ])
+        """
+    def __copy__(self) -> Chain:
+        ...
+    def __deepcopy__(self, arg0: dict) -> Chain:
+        ...
+    def __eq__(self, arg0: Chain) -> bool:
+        ...
+    def __getstate__(self) -> tuple:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
+    def __str__(self) -> str:
+        ...
+    def base_pose(self, q: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Planar pose of the base (x, y, theta), as it stands in q, [M17] (3.4).
+        
+        Parameters
+        ----------
+        q : (n,) or (N, n), rad and m
+        
+        Returns
+        -------
+        (3,) or (N, 3), m and rad
+            theta is not wrapped.
+        
+        Raises
+        ------
+        ValueError
+            If the robot has no omnidirectional base.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> tk.robots.thing().base_pose([0, 0, 0, 0, 0, 0, 1.0, 2.0, 0.5])
+        array([1. , 2. , 0.5])
+        """
+    def condition_number(self, q: numpy.typing.ArrayLike, of: typing.Any = None) -> float | numpy.typing.NDArray[numpy.float64]:
+        """
+        Condition number kappa = sigma_max/sigma_min of the Jacobian, [M17] (4.32).
+        
+        Parameters
+        ----------
+        q : (n,) or (N, n), rad and m
+        of : str or int, optional
+            The frame that moves; default: the tool.
+        
+        Returns
+        -------
+        float or (N,)
+            inf with fewer than six joints or a lost rank.
+        
+        Examples
+        --------
+        >>> import numpy as np, thing_kin as tk
+        >>> robot = tk.robots.thing()
+        >>> q = robot.random(rng=0)
+        >>> bool(np.isclose(robot.condition_number(q), np.linalg.cond(robot.jacobian(q))))
+        True
+        """
+    def condition_number_gradient(self, q: numpy.typing.ArrayLike, of: typing.Any = None) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Gradient of the condition number (4.32).
+        
+        Parameters
+        ----------
+        q : (n,) or (N, n), rad and m
+        of : str or int, optional
+            The frame that moves; default: the tool.
+        
+        Returns
+        -------
+        (n,) or (N, n)
+        
+        Raises
+        ------
+        ValueError
+            Where the largest or smallest singular value is repeated or zero: no gradient exists there.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> tk.robots.thing().condition_number_gradient([0, -1, 1, 0, 1, 0, 0, 0, 0]).shape
+        (9,)
+        """
+    def dexterity(self, q: numpy.typing.ArrayLike, of: typing.Any = None) -> float | numpy.typing.NDArray[numpy.float64]:
+        """
+        The combined measure sqrt(kappa/M), [M17] (4.33): small is good.
+        
+        Parameters
+        ----------
+        q : (n,) or (N, n), rad and m
+        of : str or int, optional
+            The frame that moves; default: the tool.
+        
+        Returns
+        -------
+        float or (N,)
+            inf with fewer than six joints or a lost rank.
+        
+        Examples
+        --------
+        >>> import numpy as np, thing_kin as tk
+        >>> robot = tk.robots.thing()
+        >>> q = robot.random(rng=0)
+        >>> f = np.sqrt(robot.condition_number(q) / robot.manipulability(q))
+        >>> bool(np.isclose(robot.dexterity(q), f))
+        True
+        """
+    def dexterity_gradient(self, q: numpy.typing.ArrayLike, of: typing.Any = None) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Gradient of sqrt(kappa/M), [M17] (4.33).
+        
+        Parameters
+        ----------
+        q : (n,) or (N, n), rad and m
+        of : str or int, optional
+            The frame that moves; default: the tool.
+        
+        Returns
+        -------
+        (n,) or (N, n)
+        
+        Raises
+        ------
+        ValueError
+            Where the largest or smallest singular value is repeated or zero: no gradient exists there.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> tk.robots.thing().dexterity_gradient([0, -1, 1, 0, 1, 0, 0, 0, 0]).shape
+        (9,)
+        """
+    def fk(self, q: numpy.typing.ArrayLike, frame: typing.Any = None) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Forward kinematics: pose of a frame, [M17] (3.8).
+        
+        Parameters
+        ----------
+        q : (n,) or (N, n), rad and m
+        frame : str or int, optional
+            Name (or index) from `frames`; default: the last, the tool.
+        
+        Returns
+        -------
+        (4, 4) or (N, 4, 4)
+            Pose in the root: T maps coordinates in the frame to the world.
+        
+        Raises
+        ------
+        ValueError
+            If q has a wrong shape or is not finite, or there is no such frame.
+        
+        Examples
+        --------
+        >>> import numpy as np, thing_kin as tk
+        >>> tk.robots.thing().fk(np.zeros(9), frame="mount")[:3, 3]
+        array([0.27 , 0.01 , 0.653])
+        """
+    def fk_all(self, q: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Poses of all frames, in the order of `frames`.
+        
+        Parameters
+        ----------
+        q : (n,) or (N, n), rad and m
+        
+        Returns
+        -------
+        (F, 4, 4) or (N, F, 4, 4)
+        
+        Examples
+        --------
+        >>> import numpy as np, thing_kin as tk
+        >>> robot = tk.robots.ur5()
+        >>> robot.fk_all(np.zeros(6)).shape == (len(robot.frames), 4, 4)
+        True
+        """
+    def hessian(self, q: numpy.typing.ArrayLike, frame: str = 'world_aligned', of: typing.Any = None) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Exact derivative of the Jacobian: H[:, :, k] = dJ/dq_k.
+        
+        Parameters
+        ----------
+        q : (n,) or (N, n), rad and m
+        frame, of
+            As for jacobian.
+        
+        Returns
+        -------
+        (6, n, n) or (N, 6, n, n)
+        
+        Raises
+        ------
+        ValueError
+            If q has a wrong shape or is not finite, or there is no such frame.
+        
+        Examples
+        --------
+        >>> import numpy as np, thing_kin as tk
+        >>> robot, q = tk.robots.ur5(), np.full(6, 0.3)
+        >>> step = 1e-6 * np.eye(6)[2]
+        >>> central = (robot.jacobian(q + step) - robot.jacobian(q - step)) / 2e-6
+        >>> np.allclose(robot.hessian(q)[:, :, 2], central, atol=1e-8)
+        True
+        """
+    def jacobian(self, q: numpy.typing.ArrayLike, frame: str = 'world_aligned', of: typing.Any = None) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Geometric Jacobian, [M17] (3.12)-(3.15): [linear; angular] velocity = J qd.
+        
+        Parameters
+        ----------
+        q : (n,) or (N, n), rad and m
+        frame : str
+            'world_aligned': velocity of the frame's origin, axes of the world. 'body': the same, axes of
+            the frame. 'world': spatial twist, at the world's origin.
+        of : str or int, optional
+            The frame that moves, from `frames`; default: the last, the tool.
+        
+        Returns
+        -------
+        (6, n) or (N, 6, n)
+        
+        Raises
+        ------
+        ValueError
+            If q has a wrong shape or is not finite, or there is no such frame.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> arm = tk.Chain.from_dh([tk.DH(a=2.0, joint="revolute")])
+        >>> arm.jacobian([0.0])[:, 0]
+        array([0., 2., 0., 0., 0., 1.])
+        """
+    def manipulability(self, q: numpy.typing.ArrayLike, of: typing.Any = None) -> float | numpy.typing.NDArray[numpy.float64]:
+        """
+        Manipulability M = sqrt(det(J J^T)), [M17] (4.30).
+        
+        Parameters
+        ----------
+        q : (n,) or (N, n), rad and m
+        of : str or int, optional
+            The frame that moves; default: the tool.
+        
+        Returns
+        -------
+        float or (N,)
+            0 with fewer than six joints or a lost rank.
+        
+        Examples
+        --------
+        >>> import numpy as np, thing_kin as tk
+        >>> robot = tk.robots.thing()
+        >>> q = robot.random(rng=0)
+        >>> J = robot.jacobian(q)
+        >>> bool(np.isclose(robot.manipulability(q), np.sqrt(np.linalg.det(J @ J.T))))
+        True
+        """
+    def manipulability_gradient(self, q: numpy.typing.ArrayLike, of: typing.Any = None) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Gradient of the manipulability, [M17] (4.31): (M/2) tr((J J^T)^-1 d(J J^T)/dq).
+        
+        Parameters
+        ----------
+        q : (n,) or (N, n), rad and m
+        of : str or int, optional
+            The frame that moves; default: the tool.
+        
+        Returns
+        -------
+        (n,) or (N, n)
+            Zero with fewer than six joints or a lost rank.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> tk.robots.thing().manipulability_gradient([0, -1, 1, 0, 1, 0, 0, 0, 0]).shape
+        (9,)
+        """
+    def random(self, n: typing.SupportsInt | typing.SupportsIndex | None = None, *, rng: typing.Any = None) -> typing.Any:
+        """
+        Configurations drawn uniformly within the limits.
+        
+        Exactly np.random.default_rng(rng).uniform(lower, upper, size); a revolute joint without limits is
+        drawn in +-pi, one with a single limit in the turn next to it.
+        
+        Parameters
+        ----------
+        n : int, optional
+            How many; default: one, without a batch axis.
+        rng : int or numpy.random.Generator, optional
+            Seed or generator.
+        
+        Returns
+        -------
+        (dof,) or (n, dof)
+        
+        Raises
+        ------
+        ValueError
+            If a prismatic joint has no limits.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> tk.robots.ur5().random(3, rng=0).shape
+        (3, 6)
+        """
+    def task_vector(self, q: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Task vector [p, quaternion w x y z, x, y, theta], [M17] (3.3)-(3.5).
+        
+        Parameters
+        ----------
+        q : (n,) or (N, n), rad and m
+        
+        Returns
+        -------
+        (10,) or (N, 10)
+            The quaternion has w >= 0.
+        
+        Raises
+        ------
+        ValueError
+            If the robot has no omnidirectional base.
+        
+        Examples
+        --------
+        >>> import numpy as np, thing_kin as tk
+        >>> tk.robots.thing().task_vector(np.zeros(9)).shape
+        (10,)
+        """
+    def with_limits(self, *, lower: typing.Any = None, upper: typing.Any = None, velocity_limits: typing.Any = None, acceleration_limits: typing.Any = None) -> Chain:
+        """
+        The same chain with other limits.
+        
+        Parameters
+        ----------
+        lower, upper, velocity_limits, acceleration_limits : (n,), optional
+            Each replaces the chain's own; inf means unlimited.
+        
+        Raises
+        ------
+        ValueError
+            If a shape is wrong, limits are crossed or rates are not positive.
+        
+        Examples
+        --------
+        >>> import numpy as np, thing_kin as tk
+        >>> tk.robots.ur5().with_limits(upper=np.full(6, 3.0)).upper
+        array([3., 3., 3., 3., 3., 3.])
+        """
+    def with_tool(self, tool: numpy.typing.ArrayLike, *, frame: str = 'tool') -> Chain:
+        """
+        The same chain with a fixed frame added at its end.
+        
+        A frame of the same name at the old end becomes 'flange' (flange2, ... if there is one).
+        
+        Parameters
+        ----------
+        tool : (4, 4)
+            Pose of the tool in the last frame.
+        frame : str
+            Name of the new frame.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> robot = tk.robots.ur5().with_tool(tk.transform(xyz=(0, 0, 0.1)))
+        >>> robot.frames[-2:]
+        ('flange', 'tool')
+        """
+    @property
+    def acceleration_limits(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Acceleration limits, (n,), rad/s^2 or m/s^2; inf: unlimited.
+        """
+    @property
+    def base_joints(self) -> tuple[int, int, int] | None:
+        """
+        Places in q of the base's x, y and theta; None without an omnidirectional base.
+        """
+    @property
+    def frames(self) -> tuple:
+        """
+        Names of all frames, from the root to the tool.
+        """
+    @property
+    def joint_types(self) -> tuple:
+        """
+        'revolute' or 'prismatic', in the order of q.
+        """
+    @property
+    def lower(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Lower position limits, (n,), rad or m.
+        """
+    @property
+    def n(self) -> int:
+        """
+        Number of joints.
+        """
+    @property
+    def name(self) -> str:
+        """
+        Name of the robot.
+        """
+    @property
+    def names(self) -> tuple:
+        """
+        Names of the joints, in the order of q.
+        """
+    @property
+    def upper(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Upper position limits, (n,), rad or m.
+        """
+    @property
+    def velocity_limits(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Velocity limits, (n,), rad/s or m/s; inf: unlimited.
+        """
+class Exact:
+    """
+    Moore-Penrose inverse, [M17] (4.6), (4.9), for TaskPriority.
+    
+    Exact, and unbounded near singularities.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> tk.Exact()
+    Exact()
+    """
+    def __eq__(self, arg0: Exact) -> bool:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+class Damped:
+    """
+    Damped inverse J^T (J J^T + lambda I)^-1, [M17] (4.7), for TaskPriority.
+    
+    Parameters
+    ----------
+    damping : float, >= 0
+        lambda itself, not its square.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> tk.Damped(1e-3).damping
+    0.001
+    """
+    def __eq__(self, arg0: Damped) -> bool:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, damping: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def damping(self) -> float:
+        """
+        lambda.
+        """
+class SelectivelyDamped:
+    """
+    Selectively damped inverse, [M17] (4.11), for TaskPriority.
+    
+    Buss & Kim (2005): each singular direction is damped by how far it would move the joints.
+    
+    Parameters
+    ----------
+    gamma_max : float, rad (m for prismatic joints)
+        Largest absolute entry of a task's step; default pi/4.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> tk.SelectivelyDamped(gamma_max=0.5).gamma_max
+    0.5
+    """
+    def __eq__(self, arg0: SelectivelyDamped) -> bool:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, gamma_max: typing.SupportsFloat | typing.SupportsIndex = 0.7853981633974483) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def gamma_max(self) -> float:
+        """
+        Largest absolute entry of a step.
+        """
+class Task:
+    """
+    What TaskPriority can be asked to do: the base of all tasks.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> isinstance(tk.PoseTask(), tk.Task)
+    True
+    """
+    @property
+    def gain(self) -> float:
+        """
+        The step asks for gain * error, [M17] (4.3).
+        """
+    @property
+    def of(self) -> str | None:
+        """
+        The frame it is about; None: the tool.
+        """
+class PoseTask(Task):
+    """
+    Bring a frame to a pose; target (4, 4).
+    
+    Parameters
+    ----------
+    gain : float > 0
+        1 asks for the whole error in one step.
+    of : str, optional
+        The frame; default: the tool.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> tk.PoseTask(gain=0.5)
+    PoseTask(gain=0.5)
+    """
+    def __init__(self, gain: typing.SupportsFloat | typing.SupportsIndex = 1.0, *, of: str | None = None) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+class PositionTask(Task):
+    """
+    Bring a frame's origin to a point; target (3,), m.
+    
+    Parameters
+    ----------
+    gain : float > 0
+    of : str, optional
+        The frame; default: the tool.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> tk.PositionTask(of="wrist_1")
+    PositionTask(gain=1.0, of='wrist_1')
+    """
+    def __init__(self, gain: typing.SupportsFloat | typing.SupportsIndex = 1.0, *, of: str | None = None) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+class OrientationTask(Task):
+    """
+    Turn a frame to an orientation; target (3, 3).
+    
+    Parameters
+    ----------
+    gain : float > 0
+    of : str, optional
+        The frame; default: the tool.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> tk.OrientationTask()
+    OrientationTask(gain=1.0)
+    """
+    def __init__(self, gain: typing.SupportsFloat | typing.SupportsIndex = 1.0, *, of: str | None = None) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+class BaseTask(Task):
+    """
+    Bring the base to a planar pose; target (x, y, theta).
+    
+    The error of theta is wrapped to (-pi, pi].
+    
+    Parameters
+    ----------
+    gain : float > 0
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> tk.BaseTask(gain=0.5)
+    BaseTask(gain=0.5)
+    """
+    def __init__(self, gain: typing.SupportsFloat | typing.SupportsIndex = 1.0) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+class PostureTask(Task):
+    """
+    Bring all joints to a configuration; target (n,).
+    
+    The theta of a base goes the short way round.
+    
+    Parameters
+    ----------
+    gain : float > 0
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> tk.PostureTask(gain=0.1)
+    PostureTask(gain=0.1)
+    """
+    def __init__(self, gain: typing.SupportsFloat | typing.SupportsIndex = 1.0) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+class TaskPriorityStep:
+    """
+    One step of TaskPriority, explained.
+    
+    A level is a task, highest priority first; the free null-space motion, if any, comes last.
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> robot = tk.robots.thing()
+    >>> solver = tk.TaskPriority(robot, [tk.BaseTask()])
+    >>> step = solver.solve(np.zeros(9), [(0.1, 0.2, 0.3)])
+    >>> step.errors[0]
+    array([0.1, 0.2, 0.3])
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def contributions(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (levels, n), each in the null space of the levels above it, before the step limit.
+        """
+    @property
+    def dq(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        The step, (n,): the sum of scale * contribution.
+        """
+    @property
+    def errors(self) -> list:
+        """
+        Error of each task before its gain; empty for the null-space motion.
+        """
+    @property
+    def limited(self) -> bool:
+        """
+        Whether the step limit took anything away.
+        """
+    @property
+    def scales(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (levels,): what the step limit left of each, 0 to 1.
+        """
+    @property
+    def singular_values(self) -> list:
+        """
+        Of the matrix that each level inverted, before any filter.
+        """
+class TaskPriority:
+    """
+    Prioritised inverse differential kinematics, [M17] 4.3.
+    
+    The first task is met as well as it can be; each further one moves only in what the tasks before it
+    leave free, so that it never disturbs them, also when the inverse is damped or filtered. With tasks
+    [PoseTask(), BaseTask()] and scheme 'chiaverini' this is the motion scheme (4.18).
+    
+    A solver is immutable: any number of threads may share it. Joint limits are not enforced.
+    
+    Parameters
+    ----------
+    robot : Chain
+    tasks : sequence of Task
+        Highest priority first, at most 16 (two for 'nakamura').
+    scheme : str
+        'nakamura': (4.16). 'siciliano': the same recursion for any number of tasks; exact, but unbounded
+        where a lower task conflicts with a higher one. 'chiaverini' (default): (4.17); stays bounded
+        there, and converges more slowly.
+    inverse : Exact, Damped or SelectivelyDamped
+        Default SelectivelyDamped(pi/4).
+    singular_value_filter : SingularValueFilter, optional
+        Applied to each inverted matrix first.
+    step_limit : float or (n,), optional
+        Largest |dq| of each joint, rad or m. Scales each task's contribution, lowest priority first, and
+        never the sum: the direction in which a higher task moves does not change.
+    
+    Raises
+    ------
+    ValueError
+        If a task, frame, scheme or limit does not fit the robot.
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> robot = tk.robots.thing()
+    >>> q = np.array([0.0, -1.2, 1.4, -0.6, 1.2, 0.0, 0.0, 0.0, 0.0])
+    >>> T_goal = robot.fk(q + 0.1)
+    >>> solver = tk.TaskPriority(robot, tasks=[tk.PoseTask(), tk.BaseTask(gain=0.5)])
+    >>> for _ in range(100):
+    ...     q = q + solver.step(q, [T_goal, (0.2, 0.0, 0.1)])
+    >>> bool(np.linalg.norm(tk.pose_error(robot.fk(q), T_goal)) < 1e-6)
+    True
+    """
+    def __init__(self, robot: Chain, tasks: collections.abc.Sequence[Task], *, scheme: str = 'chiaverini', inverse: Exact | Damped | SelectivelyDamped = ..., singular_value_filter: SingularValueFilter | None = None, step_limit: typing.Any = None) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def solve(self, q: numpy.typing.ArrayLike, targets: collections.abc.Sequence, null_motion: typing.Any = None) -> TaskPriorityStep:
+        """
+        As step, with what each task contributed.
+        
+        Parameters
+        ----------
+        q, targets, null_motion
+            As for step.
+        
+        Returns
+        -------
+        TaskPriorityStep
+        
+        Examples
+        --------
+        >>> import numpy as np, thing_kin as tk
+        >>> robot = tk.robots.thing()
+        >>> q = np.array([0.0, -1.2, 1.4, -0.6, 1.2, 0.0, 0.0, 0.0, 0.0])
+        >>> solver = tk.TaskPriority(robot, [tk.PoseTask(), tk.BaseTask()], step_limit=0.05)
+        >>> step = solver.solve(q, [robot.fk(q), (1.0, 0.0, 0.0)])
+        >>> step.limited, bool(abs(step.dq).max() <= 0.05)
+        (True, True)
+        """
+    def step(self, q: numpy.typing.ArrayLike, targets: collections.abc.Sequence, null_motion: typing.Any = None) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        One step dq towards the targets; q + dq is the next configuration.
+        
+        Allocates no memory in the core and releases the GIL.
+        
+        Parameters
+        ----------
+        q : (n,), rad and m
+        targets : sequence
+            One a task: (4, 4) for a pose, (3, 3) for an orientation, (3,) for a position or a base pose,
+            (n,) for a posture.
+        null_motion : (n,), optional
+            The z of (4.16), (4.17): motion wanted where all tasks leave the robot free.
+        
+        Returns
+        -------
+        (n,)
+        
+        Raises
+        ------
+        ValueError
+            If a shape does not fit, a number is not finite or a pose is not rigid.
+        
+        Examples
+        --------
+        >>> import numpy as np, thing_kin as tk
+        >>> robot = tk.robots.thing()
+        >>> q = np.array([0.0, -1.2, 1.4, -0.6, 1.2, 0.0, 0.0, 0.0, 0.0])
+        >>> solver = tk.TaskPriority(robot, [tk.PositionTask()])
+        >>> solver.step(q, [robot.fk(q)[:3, 3]]) + 0.0  # there already
+        array([0., 0., 0., 0., 0., 0., 0., 0., 0.])
+        """
+    @property
+    def robot(self) -> Chain:
+        """
+        The chain.
+        """
+    @property
+    def scheme(self) -> str:
+        """
+        'nakamura', 'siciliano' or 'chiaverini'.
+        """
+def filter_singular_values(J: numpy.typing.ArrayLike, *, sigma0: typing.SupportsFloat | typing.SupportsIndex, nu: typing.SupportsFloat | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    The matrix with its singular values lifted, [M17] (4.13).
+    
+    Parameters
+    ----------
+    J : (m, n) or (N, m, n)
+    sigma0, nu : float
+        See SingularValueFilter.
+    
+    Returns
+    -------
+    The same shape; no singular value is below sigma0.
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> rank_one = np.array([[3.0, 0.0], [0.0, 0.0]])
+    >>> tk.filter_singular_values(rank_one, sigma0=0.01, nu=10.0).round(3)
+    array([[3.  , 0.  ],
+           [0.  , 0.01]])
+    """
+def null_space(J: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Orthonormal basis of the null space of a matrix.
+    
+    Singular values up to max(m, n) eps sigma_1 count as zero.
+    
+    Parameters
+    ----------
+    J : (m, n), at most 32 on a side
+    
+    Returns
+    -------
+    (n, n - rank)
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> abs(tk.null_space(np.array([[1.0, 0.0]])))
+    array([[0.],
+           [1.]])
+    """
+def null_space_projector(J: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    The exact orthogonal projector I - J^+ J onto the null space, [M17] (4.15).
+    
+    Built from the null space itself: I - J# J with a damped or filtered inverse is no projector.
+    
+    Parameters
+    ----------
+    J : (m, n) or (N, m, n), at most 32 on a side
+    
+    Returns
+    -------
+    (n, n) or (N, n, n)
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> tk.null_space_projector(np.array([[1.0, 0.0]])) + 0.0
+    array([[0., 0.],
+           [0., 1.]])
+    """
+def on_omni_base(arm: Chain, mount: typing.Any = None, *, base_limits: typing.Any = None, order: str = 'arm_first', base_velocity_limits: typing.Any = None, base_acceleration_limits: typing.Any = None, name: str = '') -> Chain:
+    """
+    An arm on an omnidirectional base: three virtual joints x, y, theta, [M17] 3.2.
+    
+    Parameters
+    ----------
+    arm : Chain
+        Without a base of its own.
+    mount : (4, 4), optional
+        Pose of the arm's root in the base frame; default: the identity.
+    base_limits : three pairs (lower, upper), optional
+        Of x (m), y (m), theta (rad); default +-5 m and +-pi.
+    order : 'arm_first' or 'base_first'
+        q = [q0 ..., x, y, theta], [M17] (3.6), or [x, y, theta, q0 ...].
+    base_velocity_limits, base_acceleration_limits : three floats, optional
+        Default: unlimited.
+    name : str
+    
+    Raises
+    ------
+    ValueError
+        If the arm has a base, the mount is no rigid transform, or a name or limit is wrong.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> robot = tk.on_omni_base(tk.robots.ur5(), mount=tk.transform(xyz=(0.1, 0, 0.5)))
+    >>> robot.names
+    ('q0', 'q1', 'q2', 'q3', 'q4', 'q5', 'x', 'y', 'theta')
+    """
+def pinv(J: numpy.typing.ArrayLike, *, damping: typing.Any = None, singular_value_filter: SingularValueFilter | None = None) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Pseudoinverse of a matrix: exact, damped or selectively damped.
+    
+    Exact, [M17] (4.9): singular values up to max(m, n) eps sigma_1 count as zero. Damped, (4.10):
+    sigma/(sigma^2 + lambda), which is J^T (J J^T + lambda I)^-1 of (4.7). Selectively damped in matrix
+    form, (4.11): one lambda for each singular value, largest first. For the step of Buss & Kim, which
+    chooses them by the error, see selectively_damped_step.
+    
+    Parameters
+    ----------
+    J : (m, n) or (N, m, n), at most 32 on a side
+    damping : float or (min(m, n),), >= 0, optional
+        lambda. Note: lambda itself, not its square.
+    singular_value_filter : SingularValueFilter, optional
+        Applied to the singular values first.
+    
+    Returns
+    -------
+    (n, m) or (N, n, m)
+    
+    Raises
+    ------
+    ValueError
+        If J or damping has a wrong shape, is not finite or damping is negative.
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> tk.pinv(np.array([[2.0, 0.0], [0.0, 0.0]]))
+    array([[0.5, 0. ],
+           [0. , 0. ]])
+    >>> tk.pinv(np.array([[2.0, 0.0], [0.0, 0.0]]), damping=1.0)
+    array([[0.4, 0. ],
+           [0. , 0. ]])
+    """
+def pose_error(T: numpy.typing.ArrayLike, T_goal: numpy.typing.ArrayLike, *, frame: str = 'world_aligned', method: str = 'log') -> numpy.typing.NDArray[numpy.float64]:
+    """
+    What is missing from one pose to another, [linear, angular], [M17] (3.16)-(3.18), (4.28).
+    
+    pose_error(fk(q), fk(q + dq)) is J dq to first order, with the default Jacobian.
+    
+    Parameters
+    ----------
+    T, T_goal : (4, 4) or (N, 4, 4)
+        A single pose goes with every one of a batch.
+    frame : str
+        'world_aligned': [p_goal - p; log(R_goal R^T)], axes of the world. 'body': log(T^-1 T_goal) on
+        SE(3), axes of T.
+    method : str
+        'log': valid up to half a turn, where the sign of the axis is chosen as in so3_log. 'cross':
+        (3.18) as printed, tan(angle) axis, only below a quarter turn; in the body frame its parts are
+        turned into the axes of T.
+    
+    Returns
+    -------
+    (6,) or (N, 6), m and rad
+    
+    Raises
+    ------
+    ValueError
+        If a pose is not rigid, or 'cross' is asked for a quarter turn or more.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> tk.pose_error(tk.transform(), tk.transform(xyz=(1, 0, 0), rpy=(0, 0, 0.5)))
+    array([1. , 0. , 0. , 0. , 0. , 0.5])
+    """
+def selectively_damped_step(J: numpy.typing.ArrayLike, e: numpy.typing.ArrayLike, gamma_max: typing.SupportsFloat | typing.SupportsIndex = 0.7853981633974483, *, blocks: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] | None = None, singular_value_filter: SingularValueFilter | None = None) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Selectively damped least-squares step for J dq = e, [M17] (4.11), Buss & Kim (2005).
+    
+    Each singular direction is clamped by how much it would move the joints for what it moves the task.
+    
+    Parameters
+    ----------
+    J : (m, n), at most 32 on a side
+    e : (m,)
+    gamma_max : float, rad (m for prismatic joints)
+        Largest absolute entry of the step.
+    blocks : sequence of int, optional
+        Rows of each end-effector block. Default: (3, 3), linear and angular, for six rows, else one.
+    singular_value_filter : SingularValueFilter, optional
+        Applied to the singular values first.
+    
+    Returns
+    -------
+    (n,)
+    
+    Raises
+    ------
+    ValueError
+        If a shape does not fit, a number is not finite or gamma_max is not positive.
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> nearly_singular = np.diag([1.0, 1e-9])  # its pseudoinverse would ask for 1e8
+    >>> tk.selectively_damped_step(nearly_singular, [0.1, 0.1], gamma_max=0.5)
+    array([0.1, 0.5])
+    """
+def transform(xyz: numpy.typing.ArrayLike = (0.0, 0.0, 0.0), rpy: typing.Any = None, quaternion: typing.Any = None) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Homogeneous matrix of a position and an orientation.
+    
+    Parameters
+    ----------
+    xyz : (3,), m
+    rpy : (3,), rad, optional
+        Roll, pitch, yaw as in URDF: R = Rz(yaw) Ry(pitch) Rx(roll).
+    quaternion : (4,), optional
+        (w, x, y, z), instead of rpy.
+    
+    Returns
+    -------
+    (4, 4)
+    
+    Raises
+    ------
+    ValueError
+        If both rpy and quaternion are given, or one is malformed.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> tk.transform(xyz=(1, 2, 3))
+    array([[1., 0., 0., 1.],
+           [0., 1., 0., 2.],
+           [0., 0., 1., 3.],
+           [0., 0., 0., 1.]])
+    """
+MAX_DOF: int = 32
+__version__: str = '0.1.0'

@@ -1,0 +1,19 @@
+"""Figures: paths, stick figures, joints, singular values, joint steps, an animation.
+
+Needs the extra `viz` (`pip install thing_kin[viz]`); matplotlib is imported when the first figure
+is made. Figures are made without a display: save them with `figure.savefig("name.png")`.
+"""
+
+from thing_kin.viz.animation import animate
+from thing_kin.viz.geometry import plot_path, plot_stick_figures, stick_figure
+from thing_kin.viz.series import plot_joint_steps, plot_joints, plot_singular_values
+
+__all__ = [
+    "animate",
+    "plot_joint_steps",
+    "plot_joints",
+    "plot_path",
+    "plot_singular_values",
+    "plot_stick_figures",
+    "stick_figure",
+]

@@ -1,0 +1,133 @@
+"""Every array argument of the public API, for fuzzing: a good value, and a call for others."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+import thing_kin as tk
+from thing_kin import lie
+from thing_kin.kdl import KdlChain
+
+ROBOT = tk.robots.thing()
+ARM = tk.robots.ur5()
+KDL = KdlChain(ARM)
+Q = np.array([0.0, -1.2, 1.4, -0.6, 1.2, 0.0, 0.3, -0.2, 0.4])
+T = tk.transform(xyz=(0.5, -0.2, 0.3), rpy=(0.1, 0.2, 0.3))
+XI = np.array([1.0, 2.0, 3.0, 0.1, 0.2, 0.3])
+J = ROBOT.jacobian(Q)
+SOLVER = tk.TaskPriority(
+    ROBOT,
+    [
+        tk.PoseTask(),
+        tk.BaseTask(),
+        tk.PositionTask(of="wrist_1"),
+        tk.OrientationTask(),
+        tk.PostureTask(),
+    ],
+)
+TARGETS = [T, Q[6:], T[:3, 3], T[:3, :3], Q]
+
+
+@dataclass(frozen=True)
+class Argument:
+    """`call(value)` passes the value as the argument `name` and returns what came out of it."""
+
+    label: str
+    name: str
+    good: Any
+    call: Callable[[Any], Any] = field(repr=False)
+    infinite: bool = False  # inf is a right answer, or a right value
+    moderate: bool = False  # entries of any size: see test_huge_numbers.py
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """What a message may begin with: where two arguments don't fit, either may be at fault."""
+        pairs = {"lower": "upper", "upper": "lower", "J": "e"}
+        return (self.name, pairs.get(self.name, self.name))
+
+
+def with_target(i: int) -> Callable[[Any], Any]:
+    def call(value: Any) -> Any:
+        return SOLVER.step(Q, [value if k == i else target for k, target in enumerate(TARGETS)])
+
+    return call
+
+
+def limited(name: str) -> Callable[[Any], Any]:
+    return lambda value: getattr(ROBOT.with_limits(**{name: value}), name)
+
+
+CHAIN = [
+    Argument(f"Chain.{method}", "q", Q, getattr(ROBOT, method), infinite, moderate=True)
+    for infinite, methods in (
+        (False, "fk fk_all jacobian hessian manipulability manipulability_gradient"),
+        (False, "condition_number_gradient dexterity_gradient base_pose task_vector"),
+        (True, "condition_number dexterity"),
+    )
+    for method in methods.split()
+]
+LIE = [
+    Argument(name, argument, good, getattr(lie, name), moderate=True)
+    for name in lie.__all__
+    for argument, good in [
+        ("quaternion", np.array([0.5, 0.5, -0.5, 0.5])) if name == "rotation_from_quaternion"
+        else ("R", T[:3, :3]) if name in ("so3_log", "quaternion_from_rotation")
+        else ("T", T) if name in ("se3_log", "se3_adjoint")
+        else ("phi", XI[3:]) if name.startswith("so3")
+        else ("xi", XI)
+    ]
+]  # fmt: skip
+LINALG = [
+    Argument("pinv", "J", J, tk.pinv),
+    Argument("pinv damped", "J", J, lambda v: tk.pinv(v, damping=1e-3)),
+    Argument("pinv", "damping", np.full(6, 0.1), lambda v: tk.pinv(J, damping=v)),
+    Argument("null_space", "J", J, tk.null_space),
+    Argument("null_space_projector", "J", J, tk.null_space_projector),
+    Argument("filter", "J", J, lambda v: tk.filter_singular_values(v, sigma0=0.01, nu=10.0)),
+    Argument("selectively_damped_step", "J", J, lambda v: tk.selectively_damped_step(v, XI)),
+    Argument("selectively_damped_step", "e", XI, lambda v: tk.selectively_damped_step(J, v)),
+    Argument("SingularValueFilter()", "s", np.array(0.3), tk.SingularValueFilter(0.01, 2.0)),
+]
+MODEL = [
+    Argument("transform", "xyz", XI[:3], lambda v: tk.transform(xyz=v)),
+    Argument("transform", "rpy", XI[3:], lambda v: tk.transform(rpy=v)),
+    Argument("transform", "quaternion", np.full(4, 0.5), lambda v: tk.transform(quaternion=v)),
+    Argument("pose_error", "T", T, lambda v: tk.pose_error(v, T)),
+    Argument("pose_error", "T_goal", T, lambda v: tk.pose_error(T, v)),
+    Argument("pose_error body", "T_goal", T, lambda v: tk.pose_error(T, v, frame="body")),
+    Argument("on_omni_base", "mount", T, lambda v: tk.on_omni_base(ARM, v).fk(Q)),
+    Argument("pioneer", "mount", T, lambda v: tk.robots.pioneer_lx_ur5(v).fk(Q)),
+    Argument("with_tool", "tool", T, lambda v: ARM.with_tool(v).fk(Q[:6])),
+    *(
+        Argument("with_limits", name, getattr(ROBOT, name) / 2, limited(name), infinite=True)
+        for name in ("lower", "upper", "velocity_limits", "acceleration_limits")
+    ),
+    Argument("KdlChain.fk", "q", Q[:6], KDL.fk),
+    Argument("KdlChain.jacobian", "q", Q[:6], KDL.jacobian),
+]
+TASK_PRIORITY = [
+    Argument("step", "q", Q, lambda v: SOLVER.step(v, TARGETS), moderate=True),
+    Argument("solve", "q", Q, lambda v: SOLVER.solve(v, TARGETS).dq, moderate=True),
+    Argument("step", "null_motion", Q, lambda v: SOLVER.step(Q, TARGETS, v)),
+    *(
+        Argument("step", f"targets[{i}]", good, with_target(i), moderate=True)
+        for i, good in enumerate(TARGETS)
+    ),
+    Argument(
+        "TaskPriority",
+        "step_limit",
+        np.full(9, 0.1),
+        lambda v: tk.TaskPriority(ROBOT, [tk.PoseTask()], step_limit=v).step(Q, [T]),
+        infinite=True,
+    ),
+]
+ARGUMENTS = [*CHAIN, *LIE, *LINALG, *MODEL, *TASK_PRIORITY]
+
+# None means "not given" to these.
+OPTIONAL = {"damping", "mount", "rpy", "null_motion", "lower", "upper", "step_limit"} | {
+    "velocity_limits",
+    "acceleration_limits",
+    "quaternion",
+}

@@ -1,0 +1,42 @@
+"""`import thing_kin` loads nothing but itself and, at most, numpy."""
+
+import json
+import subprocess
+import sys
+
+
+def modules_after(statement: str) -> set[str]:
+    """Modules that the statement loads in a fresh interpreter."""
+    code = (
+        "import sys, json; before = set(sys.modules)\n"
+        f"{statement}\n"
+        "print(json.dumps(sorted(set(sys.modules) - before)))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stderr == ""
+    return set(json.loads(done.stdout))
+
+
+def foreign(modules: set[str]) -> set[str]:
+    return {name.partition(".")[0] for name in modules} - set(sys.stdlib_module_names)
+
+
+def test_it_loads_numpy_only() -> None:
+    numpys_own = foreign(modules_after("import numpy, numpy.random, numpy.typing"))
+    loaded = modules_after("import thing_kin")
+    assert foreign(loaded) - numpys_own == {"thing_kin"}
+    for heavy in ("matplotlib", "tqdm", "scipy", "thing_kin._kdl", "thing_kin.kdl"):
+        assert heavy not in loaded
+
+
+def test_kdl_is_loaded_on_demand() -> None:
+    assert "thing_kin._kdl" in modules_after("import thing_kin.kdl")
+
+
+def test_using_it_loads_no_more() -> None:
+    use = (
+        "import thing_kin as tk; robot = tk.robots.thing(); q = robot.random(rng=0)\n"
+        "tk.pinv(robot.jacobian(q)); print(end='')\n"
+        "tk.TaskPriority(robot, [tk.PoseTask()]).step(q, [robot.fk(q)])"
+    )
+    assert foreign(modules_after(use)) == foreign(modules_after("import thing_kin, numpy.random"))
