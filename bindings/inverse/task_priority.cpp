@@ -36,45 +36,46 @@ Batch read_target(const Task& task, const Chain& chain, py::handle target, std::
   return batch;
 }
 
-void solve(const TaskPriority& solver, const ArrayLike& q, const py::sequence& targets,
-           const py::object& null_motion, TaskPriorityStep& step) {
-  const Chain& chain = solver.chain();
-  const Batch at = read(q, "q", {chain.dof()}, false);
-  const std::size_t count = solver.tasks().size();
-  if (targets.size() != count) {
-    throw InvalidArgument("targets", std::to_string(targets.size()),
-                          std::to_string(count) + ", one a task");
+// What one step needs, copied, so that another thread that writes the arrays can't disturb it.
+struct Inputs {
+  Inputs(const TaskPriority& solver, const ArrayLike& q_argument, const py::sequence& targets,
+         const py::object& null_motion)
+      : count(solver.tasks().size()) {
+    const int n = solver.chain().dof();
+    q = vector_at(read(q_argument, "q", {n}, false), 0);
+    if (targets.size() != count) {
+      throw InvalidArgument("targets", std::to_string(targets.size()),
+                            std::to_string(count) + ", one a task");
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const Batch target =
+          read_target(*solver.tasks()[i], solver.chain(), py::object(targets[i]), i);
+      std::copy_n(target.data, target.size, values[i].begin());
+      pointers[i] = values[i].data();
+    }
+    if (!null_motion.is_none()) {
+      z = vector_at(read(null_motion, "null_motion", {n}, false), 0);
+    }
   }
-  // Copies, so that another thread that writes the arrays can't disturb the step.
-  const JointVector q_copy = vector_at(at, 0);
+
+  std::span<const double* const> goals() const { return {pointers.data(), count}; }
+  const double* free_motion() const { return z.size() > 0 ? z.data() : nullptr; }
+
+  std::size_t count;
+  JointVector q;
+  JointVector z;
   std::array<std::array<double, kMaxDof>, kMaxTasks> values;
   std::array<const double*, kMaxTasks> pointers{};
-  for (std::size_t i = 0; i < count; ++i) {
-    const Batch target = read_target(*solver.tasks()[i], chain, py::object(targets[i]), i);
-    std::copy_n(target.data, target.size, values[i].begin());
-    pointers[i] = values[i].data();
-  }
-  JointVector z;
-  if (!null_motion.is_none()) {
-    z = vector_at(read(null_motion, "null_motion", {chain.dof()}, false), 0);
-  }
-  const py::gil_scoped_release release;
-  solver.solve(q_copy.data(), std::span(pointers.data(), count), z.size() > 0 ? z.data() : nullptr,
-               step);
-}
+};
+
+// A step with its diagnosis, as Python sees it.
+struct ExplainedStep : TaskPriorityStep {
+  std::array<SmallVector, kMaxTasks + 1> sigma;  // empty for the null-space motion
+};
 
 Array to_array(const JointVector& v) { return Array(v.size(), v.data()); }
 
-template <typename Read>
-py::list per_level(const TaskPriorityStep& step, int count, Read of_level) {
-  py::list list;
-  for (int i = 0; i < count; ++i) {
-    list.append(of_level(step.levels[static_cast<std::size_t>(i)]));
-  }
-  return list;
-}
-
-Array contributions(const TaskPriorityStep& step) {
+Array contributions(const ExplainedStep& step) {
   const py::ssize_t n = step.dq.size();
   const py::ssize_t shape[] = {step.count, n};
   Array out = make_array(shape, 2);
@@ -85,7 +86,7 @@ Array contributions(const TaskPriorityStep& step) {
   return out;
 }
 
-Array scales(const TaskPriorityStep& step) {
+Array scales(const ExplainedStep& step) {
   const py::ssize_t shape[] = {step.count};
   Array out = make_array(shape, 1);
   for (int i = 0; i < step.count; ++i) {
@@ -95,7 +96,7 @@ Array scales(const TaskPriorityStep& step) {
 }
 
 void bind_step(py::module_& m) {
-  py::class_<TaskPriorityStep>(m, "TaskPriorityStep", R"(One step of TaskPriority, explained.
+  py::class_<ExplainedStep>(m, "TaskPriorityStep", R"(One step of TaskPriority, explained.
 
 A level is a task, highest priority first; the free null-space motion, if any, comes last.
 
@@ -109,7 +110,7 @@ Examples
 array([0.1, 0.2, 0.3])
 )")
       .def_property_readonly(
-          "dq", [](const TaskPriorityStep& s) { return to_array(s.dq); },
+          "dq", [](const ExplainedStep& s) { return to_array(s.dq); },
           "The step, (n,): the sum of scale * contribution.")
       .def_property_readonly("contributions", &contributions,
                              "(levels, n), each in the null space of the levels above it, before "
@@ -118,25 +119,32 @@ array([0.1, 0.2, 0.3])
                              "(levels,): what the step limit left of each, 0 to 1.")
       .def_property_readonly(
           "limited",
-          [](const TaskPriorityStep& s) {
+          [](const ExplainedStep& s) {
             return std::any_of(s.levels.begin(), s.levels.begin() + s.count,
                                [](const auto& level) { return level.scale < 1.0; });
           },
           "Whether the step limit took anything away.")
       .def_property_readonly(
           "errors",
-          [](const TaskPriorityStep& s) {
-            return per_level(s, s.count, [](const auto& level) { return to_array(level.error); });
+          [](const ExplainedStep& s) {
+            py::list list;
+            for (int i = 0; i < s.count; ++i) {
+              list.append(to_array(s.levels[static_cast<std::size_t>(i)].error));
+            }
+            return list;
           },
           "Error of each task before its gain; empty for the null-space motion.")
       .def_property_readonly(
           "singular_values",
-          [](const TaskPriorityStep& s) {
-            return per_level(s, s.count,
-                             [](const auto& level) { return to_array(level.singular_values); });
+          [](const ExplainedStep& s) {
+            py::list list;
+            for (int i = 0; i < s.count; ++i) {
+              list.append(to_array(s.sigma[static_cast<std::size_t>(i)]));
+            }
+            return list;
           },
           "Of the matrix that each level inverted, before any filter.")
-      .def("__repr__", [](const TaskPriorityStep& s) {
+      .def("__repr__", [](const ExplainedStep& s) {
         return py::str("TaskPriorityStep(dq={}, scales={})").format(to_array(s.dq), scales(s));
       });
 }
@@ -213,8 +221,12 @@ True
           "step",
           [](const TaskPriority& solver, const ArrayLike& q, const py::sequence& targets,
              const py::object& null_motion) {
+            const Inputs inputs(solver, q, targets, null_motion);
             TaskPriorityStep step;
-            solve(solver, q, targets, null_motion, step);
+            {
+              const py::gil_scoped_release release;
+              solver.solve(inputs.q.data(), inputs.goals(), inputs.free_motion(), step);
+            }
             return to_array(step.dq);
           },
           py::arg("q"), py::arg("targets"), py::arg("null_motion") = py::none(),
@@ -253,8 +265,11 @@ array([0., 0., 0., 0., 0., 0., 0., 0., 0.])
           "solve",
           [](const TaskPriority& solver, const ArrayLike& q, const py::sequence& targets,
              const py::object& null_motion) {
-            auto step = std::make_unique<TaskPriorityStep>();
-            solve(solver, q, targets, null_motion, *step);
+            const Inputs inputs(solver, q, targets, null_motion);
+            auto step = std::make_unique<ExplainedStep>();
+            const py::gil_scoped_release release;
+            solver.solve(inputs.q.data(), inputs.goals(), inputs.free_motion(), *step);
+            solver.singular_values(inputs.q.data(), inputs.goals(), step->sigma);
             return step;
           },
           py::arg("q"), py::arg("targets"), py::arg("null_motion") = py::none(),

@@ -7,6 +7,7 @@
 #include "array.hpp"
 #include "bindings.hpp"
 #include "thing_kin/core/error.hpp"
+#include "thing_kin/linalg/minimum_norm.hpp"
 #include "thing_kin/linalg/singular_value_filter.hpp"
 
 namespace thing_kin::python {
@@ -36,10 +37,17 @@ void bind_pseudoinverse(py::module_& m) {
         py::ssize_t cols = 0;
         const Batch batch = read_matrices(J, "J", rows, cols);
         const SmallVector lambda = read_damping(damping, std::min(rows, cols));
+        const bool exact = lambda.isZero(0.0) && !filter;
         return map(batch, {cols, rows}, [&](const double* in, double* out) {
           const Batch one{in, 1, rows * cols, true, {}};
+          const SmallMatrix A = matrix_at(one, 0, rows, cols);
+          MinimumNorm regular;
+          if (exact && regular.factor(A)) {
+            write_matrix(regular.pseudoinverse(), out);
+            return;
+          }
           Svd svd;
-          decompose(matrix_at(one, 0, rows, cols), svd);
+          decompose(A, svd);
           if (filter) {
             filter->apply(svd);
           }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "thing_kin/core/error.hpp"
+#include "thing_kin/linalg/minimum_norm.hpp"
 
 namespace thing_kin {
 
@@ -11,16 +12,68 @@ namespace {
 
 constexpr std::array kSchemes = {Scheme::kNakamura, Scheme::kSiciliano, Scheme::kChiaverini};
 
-// Writes J (or J Z with its right singular vectors lifted back into joint space) as an Svd.
+// One level: J dq = wanted, after levels that leave the columns of Z free.
+struct LevelProblem {
+  const SmallMatrix& J;
+  const SmallMatrix& Z;
+  const SmallVector& wanted;
+  bool robust;           // (4.17): invert J, then project; else invert J Z
+  bool need_null_space;  // of this level and all above
+
+  bool first() const { return Z.cols() == J.cols(); }
+};
+
+// The same with right singular vectors and null space in joint space: J Z = U S V^T (Z^T Z = I).
 void decompose_in(const SmallMatrix& J, const SmallMatrix& Z, Svd& svd) {
-  if (Z.cols() == J.cols()) {  // Z spans everything: the first level
-    decompose(J, svd);
-    return;
-  }
   const SmallMatrix reduced = J * Z;
   decompose(reduced, svd, J.norm());
   const SmallMatrix lifted = Z * svd.v;
   svd.v = lifted;
+}
+
+// The decomposition of the matrix that the level inverts.
+void decompose_level(const LevelProblem& level, Svd& svd) {
+  if (level.robust || level.first()) {
+    decompose(level.J, svd);
+  } else {
+    decompose_in(level.J, level.Z, svd);
+  }
+}
+
+// By QR, for the exact inverse of what is clearly regular; false if it is not.
+bool solve_regular(const LevelProblem& level, JointVector& dq, SmallMatrix& next_Z) {
+  const bool whole = level.robust || level.first();
+  const SmallMatrix reduced = level.first() ? SmallMatrix() : SmallMatrix(level.J * level.Z);
+  MinimumNorm inverse;
+  if (!inverse.factor(whole ? level.J : reduced)) {
+    return false;
+  }
+  dq = inverse.solve(level.wanted);
+  if (!whole) {
+    const JointVector lifted = level.Z * dq;
+    dq = lifted;
+  }
+  if (level.need_null_space) {
+    if (whole && !level.first() && !inverse.factor(reduced)) {
+      return false;
+    }
+    next_Z = inverse.null_space();
+    if (!level.first()) {
+      const SmallMatrix lifted = level.Z * next_Z;
+      next_Z = lifted;
+    }
+  }
+  return true;
+}
+
+// Basis of what this level and all above leave free.
+SmallMatrix null_space_below(const LevelProblem& level, const Svd& svd) {
+  if (level.robust && !level.first()) {
+    Svd below;
+    decompose_in(level.J, level.Z, below);
+    return below.v.rightCols(below.v.cols() - below.rank);
+  }
+  return svd.v.rightCols(svd.v.cols() - svd.rank);
 }
 
 // A joint at its limit may pass it by this fraction, once more for each level that is fitted, until
@@ -110,47 +163,56 @@ TaskPriority::TaskPriority(Chain chain, std::vector<std::shared_ptr<const Task>>
 }
 
 // Z: orthonormal basis of the null space of all levels above. next_Z: with this level too.
-void TaskPriority::add_level(int level, const TaskValue& value, const SmallMatrix& Z,
+void TaskPriority::add_level(int index, const TaskValue& value, const SmallMatrix& Z,
                              bool need_null_space, TaskPriorityStep& step,
                              SmallMatrix& next_Z) const noexcept {
-  const Task& task = *tasks_[static_cast<std::size_t>(level)];
-  TaskPriorityStep::Level& result = step.levels[static_cast<std::size_t>(level)];
-  const SmallMatrix& J = value.jacobian;
-  const bool first = Z.cols() == J.cols();
+  const Task& task = *tasks_[static_cast<std::size_t>(index)];
+  TaskPriorityStep::Level& result = step.levels[static_cast<std::size_t>(index)];
   const bool robust = options_.scheme == Scheme::kChiaverini;
-
-  Svd svd;
-  if (robust) {
-    decompose(J, svd);
-  } else {
-    decompose_in(J, Z, svd);
-  }
-  result.error = value.error;
-  result.singular_values = svd.sigma;
-  if (need_null_space) {
-    if (robust && !first) {
-      Svd below;
-      decompose_in(J, Z, below);
-      next_Z = below.v.rightCols(below.v.cols() - below.rank);
-    } else {
-      next_Z = svd.v.rightCols(svd.v.cols() - svd.rank);
-    }
-  }
-  if (options_.filter) {
-    options_.filter->apply(svd);
-  }
+  const bool regularized = options_.filter || !std::holds_alternative<Exact>(options_.inverse);
 
   // (4.16): dq_i = N (J N)# (e - J dq_{i-1}); (4.17): N J# e, N the exact projector Z Z^T.
   SmallVector wanted = task.gain() * value.error;
   if (!robust) {
-    wanted -= J * step.dq;
+    wanted -= value.jacobian * step.dq;
   }
-  result.contribution = apply_inverse(options_.inverse, svd, task.blocks(chain_), wanted);
-  if (robust && !first) {
+  const LevelProblem level{value.jacobian, Z, wanted, robust, need_null_space};
+  result.error = value.error;
+  if (regularized || !solve_regular(level, result.contribution, next_Z)) {
+    Svd svd;
+    decompose_level(level, svd);
+    if (need_null_space) {
+      next_Z = null_space_below(level, svd);
+    }
+    if (options_.filter) {
+      options_.filter->apply(svd);
+    }
+    result.contribution = apply_inverse(options_.inverse, svd, task.blocks(chain_), wanted);
+  }
+  if (robust && !level.first()) {
     const SmallVector free = Z.transpose() * result.contribution;
     result.contribution.noalias() = Z * free;
   }
   step.dq += result.contribution;
+}
+
+void TaskPriority::singular_values(const double* q, std::span<const double* const> targets,
+                                   std::span<SmallVector> sigma) const noexcept {
+  const int n = chain_.dof();
+  Posture posture;
+  place_joints(chain_, q, posture);
+  SmallMatrix Z = SmallMatrix::Identity(n, n);
+  TaskValue value;
+  Svd svd;
+  for (std::size_t i = 0; i < tasks_.size(); ++i) {
+    tasks_[i]->evaluate(chain_, posture, frames_[i], q, targets[i], value);
+    const LevelProblem level{value.jacobian, Z, value.error, options_.scheme == Scheme::kChiaverini,
+                             true};
+    decompose_level(level, svd);
+    sigma[i] = svd.sigma;
+    const SmallMatrix next_Z = null_space_below(level, svd);
+    Z = next_Z;
+  }
 }
 
 void TaskPriority::solve(const double* q, std::span<const double* const> targets,
@@ -180,7 +242,6 @@ void TaskPriority::solve(const double* q, std::span<const double* const> targets
     const SmallVector along = Z.transpose() * z;
     free.contribution = Z * along;
     free.error.resize(0);
-    free.singular_values.resize(0);
     step.dq += free.contribution;
   }
   for (int level = 0; level < step.count; ++level) {

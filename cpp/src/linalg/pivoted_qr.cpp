@@ -1,4 +1,4 @@
-#include "pivoted_qr.hpp"
+#include "thing_kin/linalg/pivoted_qr.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,10 @@ double square_norm(const double* x, Eigen::Index n) {
 
 }  // namespace
 
-PivotedQr::PivotedQr(SmallMatrix& W) : rows_(W.rows()), cols_(W.cols()), reflectors_(rows_, cols_) {
+void PivotedQr::factor(SmallMatrix& W) noexcept {
+  rows_ = W.rows();
+  cols_ = W.cols();
+  reflectors_.resize(rows_, cols_);
   for (Eigen::Index j = 0; j < cols_; ++j) {
     pivots_[static_cast<std::size_t>(j)] = j;
   }

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "pivoted_qr.hpp"
 #include "thing_kin/core/tolerance.hpp"
+#include "thing_kin/linalg/pivoted_qr.hpp"
 
 namespace thing_kin {
 
@@ -158,7 +158,8 @@ void decompose(const SmallMatrix& A, Svd& svd, double scale) noexcept {
   } else {
     W = A / unit;
   }
-  const PivotedQr qr(W);
+  PivotedQr qr;
+  qr.factor(W);
   SmallMatrix L = W.topRows(k).triangularView<Eigen::Upper>().transpose();
   SmallMatrix rotations;
   orthogonalize_columns(L, rotations);

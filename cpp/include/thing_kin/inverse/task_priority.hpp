@@ -37,10 +37,9 @@ struct TaskPriorityOptions {
 /// One step, and what each level had to do with it. Level `tasks` is the free null-space motion.
 struct TaskPriorityStep {
   struct Level {
-    JointVector contribution;     ///< before the step limit, in the null space of the levels above
-    double scale = 1.0;           ///< what the step limit left of it, [0, 1]
-    SmallVector error;            ///< of the task, before its gain
-    SmallVector singular_values;  ///< of the matrix that was inverted, before any filter
+    JointVector contribution;  ///< before the step limit, in the null space of the levels above
+    double scale = 1.0;        ///< what the step limit left of it, [0, 1]
+    SmallVector error;         ///< of the task, before its gain
   };
 
   JointVector dq;  ///< sum of scale * contribution
@@ -69,8 +68,12 @@ class TaskPriority {
   void solve(const double* q, std::span<const double* const> targets, const double* null_motion,
              TaskPriorityStep& step) const noexcept;
 
+  /// Singular values of the matrix that each task inverts, before any filter. sigma: one a task.
+  void singular_values(const double* q, std::span<const double* const> targets,
+                       std::span<SmallVector> sigma) const noexcept;
+
  private:
-  void add_level(int level, const TaskValue& value, const SmallMatrix& Z, bool need_null_space,
+  void add_level(int index, const TaskValue& value, const SmallMatrix& Z, bool need_null_space,
                  TaskPriorityStep& step, SmallMatrix& next_Z) const noexcept;
 
   Chain chain_;
