@@ -23,7 +23,7 @@ void bind_null_space(py::module_& m);
 void bind_dh(py::module_& m);
 ChainClass bind_chain(py::module_& m);
 void bind_omni_base(py::module_& m);
-void bind_robots(py::module_& robots);
+void bind_robots(py::module_& m);
 
 void bind_posture(ChainClass& chain);
 void bind_jacobian(ChainClass& chain);

@@ -25,16 +25,10 @@ const Jacobian& jacobian(const Problem::Input& input) {
   return J;
 }
 
-SmallMatrix inverse(const Problem::Input& input) {
-  Svd svd;
-  decompose(input.jacobian, svd);
-  return pseudoinverse(svd, exact_gains(svd));
-}
+SmallMatrix inverse(const Problem::Input& input) { return exact_pseudoinverse(input.jacobian); }
 
 JointVector velocity(const Problem::Input& input) {
-  Svd svd;
-  decompose(jacobian(input), svd);
-  return apply_pseudoinverse(svd, exact_gains(svd), input.twist);
+  return minimum_norm_solution(jacobian(input), input.twist);
 }
 
 // A solver with the pose first and the base second, and its step.

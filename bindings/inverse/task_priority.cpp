@@ -154,7 +154,7 @@ array([0.1, 0.2, 0.3])
 void bind_task_priority(py::module_& m) {
   bind_step(m);
   py::class_<TaskPriority>(m, "TaskPriority",
-                           R"(Prioritised inverse differential kinematics, [M17] 4.3.
+                           R"(Prioritized inverse differential kinematics, [M17] 4.3.
 
 The first task is met as well as it can be; each further one moves only in what the tasks before it
 leave free, so that it never disturbs them, also when the inverse is damped or filtered. With tasks

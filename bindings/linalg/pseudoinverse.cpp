@@ -7,7 +7,6 @@
 #include "array.hpp"
 #include "bindings.hpp"
 #include "thing_kin/core/error.hpp"
-#include "thing_kin/linalg/minimum_norm.hpp"
 #include "thing_kin/linalg/singular_value_filter.hpp"
 
 namespace thing_kin::python {
@@ -41,9 +40,8 @@ void bind_pseudoinverse(py::module_& m) {
         return map(batch, {cols, rows}, [&](const double* in, double* out) {
           const Batch one{in, 1, rows * cols, true, {}};
           const SmallMatrix A = matrix_at(one, 0, rows, cols);
-          MinimumNorm regular;
-          if (exact && regular.factor(A)) {
-            write_matrix(regular.pseudoinverse(), out);
+          if (exact) {
+            write_matrix(exact_pseudoinverse(A), out);
             return;
           }
           Svd svd;

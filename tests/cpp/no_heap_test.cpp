@@ -86,6 +86,7 @@ TEST(NoHeap, LinearAlgebra) {
                 decompose(A, svd);
                 SingularValueFilter(0.01, 10.0).apply(svd);
                 pseudoinverse(svd, damped_gains(svd, 1e-3));
+                exact_pseudoinverse(A);
                 selectively_damped_step(svd, RowBlocks::whole(m), SmallVector::Ones(m), 0.5);
                 null_space_projector(A);
               }),
@@ -108,11 +109,18 @@ TEST(NoHeap, TaskPriorityInEverySchemeAndInverse) {
     for (const DifferentialInverse& inverse :
          {DifferentialInverse(Exact()), DifferentialInverse(Damped(1e-3)),
           DifferentialInverse(SelectivelyDamped())}) {
-      TaskPriorityOptions options{scheme, inverse, SingularValueFilter(0.01, 10.0),
-                                  JointVector::Constant(9, 0.1)};
-      const TaskPriority solver(robot, {std::make_shared<PoseTask>(), std::make_shared<BaseTask>()},
-                                options);
-      EXPECT_EQ(allocations_in([&] { solver.solve(q.data(), targets, z.data(), *step); }), 0);
+      for (const std::optional<SingularValueFilter>& filter :
+           {std::optional<SingularValueFilter>(), std::optional(SingularValueFilter(0.01, 10.0))}) {
+        const TaskPriorityOptions options{scheme, inverse, filter, JointVector::Constant(9, 0.1)};
+        const TaskPriority solver(
+            robot, {std::make_shared<PoseTask>(), std::make_shared<BaseTask>()}, options);
+        std::array<SmallVector, 2> sigma;
+        EXPECT_EQ(allocations_in([&] {
+                    solver.solve(q.data(), targets, z.data(), *step);
+                    solver.singular_values(q.data(), targets, sigma);
+                  }),
+                  0);
+      }
     }
   }
 }

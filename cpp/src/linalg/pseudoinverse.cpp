@@ -1,5 +1,7 @@
 #include "thing_kin/linalg/pseudoinverse.hpp"
 
+#include "thing_kin/linalg/minimum_norm.hpp"
+
 namespace thing_kin {
 
 SmallVector exact_gains(const Svd& svd) noexcept {
@@ -20,6 +22,26 @@ SmallVector damped_gains(const Svd& svd, const SmallVector& lambda) noexcept {
     }
   }
   return gains;
+}
+
+SmallMatrix exact_pseudoinverse(const SmallMatrix& A) noexcept {
+  MinimumNorm regular;
+  if (regular.factor(A)) {
+    return regular.pseudoinverse();
+  }
+  Svd svd;
+  decompose(A, svd);
+  return pseudoinverse(svd, exact_gains(svd));
+}
+
+JointVector minimum_norm_solution(const SmallMatrix& A, const SmallVector& e) noexcept {
+  MinimumNorm regular;
+  if (regular.factor(A)) {
+    return regular.solve(e);
+  }
+  Svd svd;
+  decompose(A, svd);
+  return apply_pseudoinverse(svd, exact_gains(svd), e);
 }
 
 SmallMatrix pseudoinverse(const Svd& svd, const SmallVector& gains) noexcept {

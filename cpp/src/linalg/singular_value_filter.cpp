@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "thing_kin/core/error.hpp"
@@ -12,8 +13,9 @@ namespace {
 
 // h' is smallest at s*, where (2s + nu)/(s^2 + nu s + 2)^2 peaks.
 bool is_increasing(double sigma0, double nu) {
-  const double s =
-      nu < std::sqrt(2.0) ? std::max(0.0, (std::sqrt(24.0 - 3.0 * nu * nu) - 3.0 * nu) / 6.0) : 0.0;
+  const double s = nu < std::numbers::sqrt2
+                       ? std::max(0.0, (std::sqrt(24.0 - 3.0 * nu * nu) - 3.0 * nu) / 6.0)
+                       : 0.0;
   const double denominator = s * s + nu * s + 2.0;
   return 2.0 * sigma0 * (2.0 * s + nu) <= denominator * denominator;
 }

@@ -23,7 +23,7 @@ void check_unique(const std::vector<std::string>& names, const char* argument) {
 }
 
 bool is_permutation_of_indices(std::vector<int> order, std::size_t n) {
-  std::sort(order.begin(), order.end());
+  std::ranges::sort(order);
   std::vector<int> indices(n);
   std::iota(indices.begin(), indices.end(), 0);
   return order == indices;
@@ -33,7 +33,7 @@ bool is_permutation_of_indices(std::vector<int> order, std::size_t n) {
 std::string free_frame_name(const std::vector<Chain::Frame>& frames, const std::string& name) {
   std::string candidate = name;
   const auto is_candidate = [&](const Chain::Frame& frame) { return frame.name == candidate; };
-  for (int i = 2; std::any_of(frames.begin(), frames.end(), is_candidate); ++i) {
+  for (int i = 2; std::ranges::any_of(frames, is_candidate); ++i) {
     candidate = std::string(name).append(std::to_string(i));
   }
   return candidate;
@@ -127,6 +127,7 @@ void Chain::collect_joints() {
   }
   check_unique(joint_names_, "joint names");
   std::vector<std::string> frame_names;
+  frame_names.reserve(frames_.size());
   for (const Frame& frame : frames_) {
     frame_names.push_back(frame.name);
   }
@@ -159,6 +160,7 @@ Chain Chain::with_tool(const SE3& tool, const std::string& frame) const {
 
 std::vector<JointLimits> Chain::limits() const {
   std::vector<JointLimits> limits;
+  limits.reserve(joints_.size());
   for (int i = 0; i < dof(); ++i) {
     limits.push_back({lower_[i], upper_[i], velocity_limits_[i], acceleration_limits_[i]});
   }

@@ -867,7 +867,7 @@ class TaskPriorityStep:
         """
 class TaskPriority:
     """
-    Prioritised inverse differential kinematics, [M17] 4.3.
+    Prioritized inverse differential kinematics, [M17] 4.3.
     
     The first task is met as well as it can be; each further one moves only in what the tasks before it
     leave free, so that it never disturbs them, also when the inverse is damped or filtered. With tasks

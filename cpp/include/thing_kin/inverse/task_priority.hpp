@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -9,12 +8,11 @@
 #include <vector>
 
 #include "thing_kin/inverse/differential_inverse.hpp"
+#include "thing_kin/inverse/step_limit.hpp"
 #include "thing_kin/inverse/task.hpp"
 #include "thing_kin/linalg/singular_value_filter.hpp"
 
 namespace thing_kin {
-
-inline constexpr int kMaxTasks = 16;
 
 /// How the tasks' steps are put together.
 enum class Scheme : std::uint8_t {
@@ -28,30 +26,17 @@ const char* to_string(Scheme scheme);
 
 struct TaskPriorityOptions {
   Scheme scheme = Scheme::kChiaverini;
-  DifferentialInverse inverse = SelectivelyDamped();
+  DifferentialInverse inverse{SelectivelyDamped()};
   std::optional<SingularValueFilter> filter;
   /// Largest |dq_j| of a step, one a joint; empty: none.
   std::optional<JointVector> step_limit;
 };
 
-/// One step, and what each level had to do with it. Level `tasks` is the free null-space motion.
-struct TaskPriorityStep {
-  struct Level {
-    JointVector contribution;  ///< before the step limit, in the null space of the levels above
-    double scale = 1.0;        ///< what the step limit left of it, [0, 1]
-    SmallVector error;         ///< of the task, before its gain
-  };
-
-  JointVector dq;  ///< sum of scale * contribution
-  int count = 0;   ///< levels
-  std::array<Level, kMaxTasks + 1> levels;
-};
-
-/// Prioritised inverse differential kinematics, [M17] 4.3. Immutable: any number of threads may use
+/// Prioritized inverse differential kinematics, [M17] 4.3. Immutable: any number of threads may use
 /// one solver; solve() allocates nothing.
 ///
 /// A lower task never disturbs a higher one: it moves in the exact null space of all above it,
-/// whatever regularisation the inverse has (erratum to (4.15)-(4.18)).
+/// whatever regularization the inverse has (erratum to (4.15)-(4.18)).
 class TaskPriority {
  public:
   /// Throws InvalidArgument: no task or too many, a scheme that can't take them, an unknown frame,
@@ -81,10 +66,5 @@ class TaskPriority {
   std::vector<int> frames_;
   TaskPriorityOptions options_;
 };
-
-/// Chooses the levels' scales so that no |dq_j| exceeds its limit: whole contributions are kept
-/// from the highest priority down, the first that does not fit is shortened, and those below get
-/// what room is left. The direction of no level changes, so that priorities stay strict.
-void scale_to_limit(const JointVector& limit, TaskPriorityStep& step) noexcept;
 
 }  // namespace thing_kin

@@ -8,7 +8,7 @@ namespace thing_kin {
 SmallMatrix null_space(const SmallMatrix& A) noexcept;
 
 /// The exact orthogonal projector I - A^+ A, (n, n), [M17] (4.15). Built from the null space and
-/// not from an inverse, so that it is a projector whatever regularisation the inverse has
+/// not from an inverse, so that it is a projector whatever regularization the inverse has
 /// (erratum).
 SmallMatrix null_space_projector(const SmallMatrix& A) noexcept;
 

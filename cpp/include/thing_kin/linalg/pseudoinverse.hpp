@@ -14,6 +14,11 @@ SmallVector damped_gains(const Svd& svd, double lambda) noexcept;
 /// Selectively damped in matrix form, [M17] (4.11): a lambda_i for each singular value.
 SmallVector damped_gains(const Svd& svd, const SmallVector& lambda) noexcept;
 
+/// A^+, (n, m), and A^+ e, (n): by QR where A is clearly regular (MinimumNorm), else by singular
+/// values.
+SmallMatrix exact_pseudoinverse(const SmallMatrix& A) noexcept;
+JointVector minimum_norm_solution(const SmallMatrix& A, const SmallVector& e) noexcept;
+
 /// V diag(gains) U^T, (n, m).
 SmallMatrix pseudoinverse(const Svd& svd, const SmallVector& gains) noexcept;
 
