@@ -74,7 +74,7 @@ Examples
           write_matrix(filter_singular_values(matrix_at(one, 0, rows, cols), filter), out);
         });
       },
-      py::arg("J"), py::kw_only(), py::arg("sigma0"), py::arg("nu"),
+      py::arg("J"), py::arg("sigma0"), py::arg("nu"),
       R"(The matrix with its singular values lifted, [M17] (4.13).
 
 Parameters

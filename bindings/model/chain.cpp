@@ -256,7 +256,7 @@ array([1.5, 0. , 0. ])
             return std::tuple(x, y, theta);
           },
           "Places in q of the base's x, y and theta; None without an omnidirectional base.")
-      .def("random", &random, py::arg("n") = py::none(), py::kw_only(), py::arg("rng") = py::none(),
+      .def("random", &random, py::arg("n") = py::none(), py::arg("rng") = py::none(),
            R"(Configurations drawn uniformly within the limits.
 
 Exactly np.random.default_rng(rng).uniform(lower, upper, size); a revolute joint without limits is

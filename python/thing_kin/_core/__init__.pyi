@@ -476,7 +476,7 @@ class Chain:
         >>> tk.robots.thing().manipulability_gradient([0, -1, 1, 0, 1, 0, 0, 0, 0]).shape
         (9,)
         """
-    def random(self, n: typing.SupportsInt | typing.SupportsIndex | None = None, *, rng: typing.Any = None) -> typing.Any:
+    def random(self, n: typing.SupportsInt | typing.SupportsIndex | None = None, rng: typing.Any = None) -> typing.Any:
         """
         Configurations drawn uniformly within the limits.
         
@@ -979,7 +979,7 @@ class TaskPriority:
         """
         'nakamura', 'siciliano' or 'chiaverini'.
         """
-def filter_singular_values(J: numpy.typing.ArrayLike, *, sigma0: typing.SupportsFloat | typing.SupportsIndex, nu: typing.SupportsFloat | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float64]:
+def filter_singular_values(J: numpy.typing.ArrayLike, sigma0: typing.SupportsFloat | typing.SupportsIndex, nu: typing.SupportsFloat | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float64]:
     """
     The matrix with its singular values lifted, [M17] (4.13).
     
