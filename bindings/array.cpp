@@ -10,11 +10,26 @@ namespace thing_kin::python {
 
 namespace {
 
+// What users have instead of a matrix, known by what it offers, so that nothing is imported:
+// rotations and rigid transforms of SciPy, quaternions of Pinocchio, several poses of spatialmath.
+// (Pinocchio's SE3 and a single pose of spatialmath are arrays to numpy already.)
+py::object as_matrix(py::handle argument) {
+  for (const char* method : {"as_matrix", "toRotationMatrix"}) {
+    if (py::hasattr(argument, method)) {
+      return argument.attr(method)();
+    }
+  }
+  if (py::hasattr(argument, "isSE") && py::hasattr(argument, "A")) {
+    return argument.attr("A");
+  }
+  return py::reinterpret_borrow<py::object>(argument);
+}
+
 // A conversion that loses nothing a user could have meant: numbers that are real, of any width.
 py::array to_float64(py::handle argument, const char* name) {
   try {
     const py::module_ numpy = py::module_::import("numpy");
-    const auto array = numpy.attr("asarray")(argument).cast<py::array>();
+    const auto array = numpy.attr("asarray")(as_matrix(argument)).cast<py::array>();
     const char kind = array.dtype().kind();
     if (kind != 'f' && kind != 'i' && kind != 'u') {
       throw InvalidArgument(name, "dtype " + std::string(py::str(array.dtype())), "real numbers");

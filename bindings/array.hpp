@@ -95,34 +95,6 @@ inline SmallVector vector_at(const Batch& batch, py::ssize_t i) {
   return Eigen::Map<const Eigen::VectorXd>(batch.item(i), batch.size);
 }
 
-/// out[i] = function(in[i]) for every item; without the GIL if there is a batch. `function(const
-/// double* in, double* out)` must not touch Python.
-template <typename Function>
-Array map(const Batch& batch, std::initializer_list<py::ssize_t> item, Function function) {
-  Array out = make_array(batch, item);
-  double* to = out.mutable_data();
-  if (batch.single) {
-    function(batch.data, to);
-    return out;
-  }
-  const py::ssize_t stride = batch.count > 0 ? out.size() / batch.count : 0;
-  const py::gil_scoped_release release;
-  for (py::ssize_t i = 0; i < batch.count; ++i) {
-    function(batch.item(i), to + i * stride);
-  }
-  return out;
-}
-
-/// As map(), for functions that return one double.
-template <typename Function>
-FloatOrArray map_scalar(const Batch& batch, Function function) {
-  if (batch.single) {
-    return py::reinterpret_steal<FloatOrArray>(PyFloat_FromDouble(function(batch.data)));
-  }
-  return py::reinterpret_steal<FloatOrArray>(
-      map(batch, {}, [&](const double* in, double* out) { *out = function(in); }).release());
-}
-
 }  // namespace thing_kin::python
 
 namespace pybind11::detail {

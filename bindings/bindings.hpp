@@ -12,6 +12,8 @@ namespace py = pybind11;
 
 using ChainClass = py::class_<Chain>;
 
+void bind_simd(py::module_& m);
+
 void bind_so3(py::module_& lie);
 void bind_se3(py::module_& lie, py::module_& top);
 

@@ -10,6 +10,8 @@ PYBIND11_MODULE(_core, m) {
   m.attr("__version__") = thing_kin::kVersion;
   m.attr("MAX_DOF") = thing_kin::kMaxDof;
 
+  bind_simd(m);
+
   py::module_ lie = m.def_submodule("lie", "Rotations SO(3) and rigid transforms SE(3).");
   bind_so3(lie);
   bind_se3(lie, m);

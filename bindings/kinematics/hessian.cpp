@@ -1,7 +1,7 @@
 #include "thing_kin/kinematics/hessian.hpp"
 
-#include "array.hpp"
 #include "bindings.hpp"
+#include "map.hpp"
 #include "model/chain.hpp"
 
 namespace thing_kin::python {
@@ -9,25 +9,28 @@ namespace thing_kin::python {
 void bind_hessian(ChainClass& chain) {
   chain.def(
       "hessian",
-      [](const Chain& c, const ArrayLike& q, const std::string& frame, const py::object& of) {
+      [](const Chain& c, const ArrayLike& q, const std::string& frame, const FrameLike& of,
+         const OutArray& out, const ThreadCount& threads) {
         const ReferenceFrame reference = reference_frame_from_string(frame);
         const int index = read_frame(c, of, "of");
         const int n = c.dof();
-        return map(read_vectors(q, "q", n), {6, n, n}, [&](const double* in, double* out) {
-          Posture posture;
-          Hessian H;
-          place_joints(c, in, posture);
-          geometric_hessian(c, posture, index, reference, H);
-          for (int row = 0; row < 6; ++row) {
-            for (int i = 0; i < n; ++i) {
-              for (int k = 0; k < n; ++k) {
-                out[(row * n + i) * n + k] = H[static_cast<std::size_t>(k)](row, i);
-              }
-            }
-          }
-        });
+        return map(read_vectors(q, "q", n), {6, n, n}, {out, threads},
+                   [&](const double* in, double* to) {
+                     Posture posture;
+                     Hessian H;
+                     place_joints(c, in, posture);
+                     geometric_hessian(c, posture, index, reference, H);
+                     for (int row = 0; row < 6; ++row) {
+                       for (int i = 0; i < n; ++i) {
+                         for (int k = 0; k < n; ++k) {
+                           to[(row * n + i) * n + k] = H[static_cast<std::size_t>(k)](row, i);
+                         }
+                       }
+                     }
+                   });
       },
-      py::arg("q"), py::arg("frame") = "world_aligned", py::arg("of") = py::none(),
+      py::arg("q"), py::arg("frame") = "world_aligned", py::arg("of") = py::none(), py::kw_only(),
+      py::arg("out") = py::none(), py::arg("threads") = py::none(),
       R"(Exact derivative of the Jacobian: H[:, :, k] = dJ/dq_k.
 
 Parameters
@@ -35,6 +38,10 @@ Parameters
 q : (n,) or (N, n), rad and m
 frame, of
     As for jacobian.
+out : (6, n, n) or (N, 6, n, n) float64 array in C order, optional
+    Where the result goes, and what is returned then.
+threads : int, optional
+    At most so many; default: one, and for large batches all processors. The result is the same.
 
 Returns
 -------

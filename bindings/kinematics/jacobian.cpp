@@ -1,26 +1,50 @@
 #include "thing_kin/kinematics/jacobian.hpp"
 
-#include "array.hpp"
 #include "bindings.hpp"
+#include "map.hpp"
 #include "model/chain.hpp"
+#include "thing_kin/kinematics/batch.hpp"
 
 namespace thing_kin::python {
+
+namespace {
+
+// Jacobians, and poses unless T is null.
+void compute(const Chain& c, const Batch& batch, int of, ReferenceFrame reference, int threads,
+             double* T, double* J) {
+  if (batch.single) {
+    Posture posture;
+    Jacobian columns;
+    place_joints(c, batch.data, posture);
+    geometric_jacobian(c, posture, of, reference, columns);
+    write_matrix(columns, J);
+    if (T != nullptr) {
+      write_pose(frame_pose(c, posture, of), T);
+    }
+    return;
+  }
+  const py::gil_scoped_release release;
+  geometric_jacobian(c, {batch.data, static_cast<std::size_t>(batch.count), threads}, of, reference,
+                     T, J);
+}
+
+}  // namespace
 
 void bind_jacobian(ChainClass& chain) {
   chain.def(
       "jacobian",
-      [](const Chain& c, const ArrayLike& q, const std::string& frame, const py::object& of) {
+      [](const Chain& c, const ArrayLike& q, const std::string& frame, const FrameLike& of,
+         const OutArray& out, const ThreadCount& threads) {
         const ReferenceFrame reference = reference_frame_from_string(frame);
         const int index = read_frame(c, of, "of");
-        return map(read_vectors(q, "q", c.dof()), {6, c.dof()}, [&](const double* in, double* out) {
-          Posture posture;
-          Jacobian J;
-          place_joints(c, in, posture);
-          geometric_jacobian(c, posture, index, reference, J);
-          write_matrix(J, out);
-        });
+        Batch batch = read_vectors(q, "q", c.dof());
+        const int count = read_threads(threads);
+        Array J = make_output(batch, {6, c.dof()}, out);
+        compute(c, batch, index, reference, count, nullptr, J.mutable_data());
+        return J;
       },
-      py::arg("q"), py::arg("frame") = "world_aligned", py::arg("of") = py::none(),
+      py::arg("q"), py::arg("frame") = "world_aligned", py::arg("of") = py::none(), py::kw_only(),
+      py::arg("out") = py::none(), py::arg("threads") = py::none(),
       R"(Geometric Jacobian, [M17] (3.12)-(3.15): [linear; angular] velocity = J qd.
 
 Parameters
@@ -31,10 +55,58 @@ frame : str
     the frame. 'world': spatial twist, at the world's origin.
 of : str or int, optional
     The frame that moves, from `frames`; default: the last, the tool.
+out : (6, n) or (N, 6, n) float64 array in C order, optional
+    Where the result goes, and what is returned then.
+threads : int, optional
+    At most so many; default: one, and for large batches all processors. The result is the same.
 
 Returns
 -------
 (6, n) or (N, 6, n)
+
+Raises
+------
+ValueError
+    If q or out has a wrong shape, q is not finite, or there is no such frame.
+
+Examples
+--------
+>>> import thing_kin as tk
+>>> arm = tk.Chain.from_dh([tk.DH(a=2.0, joint="revolute")])
+>>> arm.jacobian([0.0])[:, 0]
+array([0., 2., 0., 0., 0., 1.])
+)");
+  chain.def(
+      "fk_and_jacobian",
+      [](const Chain& c, const ArrayLike& q, const std::string& frame, const FrameLike& of,
+         const ThreadCount& threads) {
+        const ReferenceFrame reference = reference_frame_from_string(frame);
+        const int index = read_frame(c, of, "of");
+        const Batch batch = read_vectors(q, "q", c.dof());
+        const int count = read_threads(threads);
+        Array T = make_array(batch, {4, 4});
+        Array J = make_array(batch, {6, c.dof()});
+        compute(c, batch, index, reference, count, T.mutable_data(), J.mutable_data());
+        return py::typing::Tuple<Array, Array>(py::make_tuple(T, J));
+      },
+      py::arg("q"), py::arg("frame") = "world_aligned", py::arg("of") = py::none(), py::kw_only(),
+      py::arg("threads") = py::none(),
+      R"(Pose and Jacobian of a frame, for little more than the price of one.
+
+Parameters
+----------
+q : (n,) or (N, n), rad and m
+frame : str
+    As in jacobian: 'world_aligned', 'body' or 'world'.
+of : str or int, optional
+    The frame, from `frames`; default: the last, the tool.
+threads : int, optional
+    At most so many; default: one, and for large batches all processors. The result is the same.
+
+Returns
+-------
+T : (4, 4) or (N, 4, 4)
+J : (6, n) or (N, 6, n)
 
 Raises
 ------
@@ -44,9 +116,9 @@ ValueError
 Examples
 --------
 >>> import thing_kin as tk
->>> arm = tk.Chain.from_dh([tk.DH(a=2.0, joint="revolute")])
->>> arm.jacobian([0.0])[:, 0]
-array([0., 2., 0., 0., 0., 1.])
+>>> T, J = tk.robots.ur5().fk_and_jacobian([0.0, -1.0, 1.0, 0.0, 1.0, 0.0])
+>>> T.shape, J.shape
+((4, 4), (6, 6))
 )");
 }
 

@@ -1,7 +1,7 @@
 #include "thing_kin/kinematics/manipulability.hpp"
 
-#include "array.hpp"
 #include "bindings.hpp"
+#include "map.hpp"
 #include "model/chain.hpp"
 #include "thing_kin/core/error.hpp"
 
@@ -15,21 +15,21 @@ Dexterity dexterity_at(const Chain& chain, const double* q, int frame, Posture& 
 }
 
 template <typename Measure>
-FloatOrArray measure(const Chain& c, const ArrayLike& q, const py::object& of,
+FloatOrArray measure(const Chain& c, const ArrayLike& q, const FrameLike& of, const Run& run,
                      Measure of_dexterity) {
   const int frame = read_frame(c, of, "of");
-  return map_scalar(read_vectors(q, "q", c.dof()), [&](const double* in) {
+  return map_scalar(read_vectors(q, "q", c.dof()), run, [&](const double* in) {
     Posture posture;
     return of_dexterity(dexterity_at(c, in, frame, posture));
   });
 }
 
 template <typename Gradient>
-Array gradient(const Chain& c, const ArrayLike& q, const py::object& of, bool anywhere,
-               Gradient of_dexterity) {
+Array gradient(const Chain& c, const ArrayLike& q, const FrameLike& of, const Run& run,
+               bool anywhere, Gradient of_dexterity) {
   const int frame = read_frame(c, of, "of");
   const Batch batch = read_vectors(q, "q", c.dof());
-  return map(batch, {c.dof()}, [&](const double* in, double* out) {
+  const auto compute = [&](const double* in, double* out) {
     Posture posture;
     const Dexterity dexterity = dexterity_at(c, in, frame, posture);
     if (!anywhere && !dexterity.has_gradient()) {
@@ -39,7 +39,8 @@ Array gradient(const Chain& c, const ArrayLike& q, const py::object& of, bool an
     Hessian H;
     geometric_hessian(c, posture, frame, ReferenceFrame::kWorldAligned, H);
     Eigen::Map<Eigen::VectorXd>(out, c.dof()) = of_dexterity(dexterity, H);
-  });
+  };
+  return map(batch, {c.dof()}, run, compute, kCostlyRowsPerThread);
 }
 
 }  // namespace
@@ -47,10 +48,13 @@ Array gradient(const Chain& c, const ArrayLike& q, const py::object& of, bool an
 void bind_manipulability(ChainClass& chain) {
   chain.def(
       "manipulability",
-      [](const Chain& c, const ArrayLike& q, const py::object& of) {
-        return measure(c, q, of, [](const Dexterity& d) { return d.manipulability(); });
+      [](const Chain& c, const ArrayLike& q, const FrameLike& of, const OutArray& out,
+         const ThreadCount& threads) {
+        return measure(c, q, of, {out, threads},
+                       [](const Dexterity& d) { return d.manipulability(); });
       },
-      py::arg("q"), py::arg("of") = py::none(),
+      py::arg("q"), py::arg("of") = py::none(), py::kw_only(), py::arg("out") = py::none(),
+      py::arg("threads") = py::none(),
       R"(Manipulability M = sqrt(det(J J^T)), [M17] (4.30).
 
 Parameters
@@ -58,6 +62,10 @@ Parameters
 q : (n,) or (N, n), rad and m
 of : str or int, optional
     The frame that moves; default: the tool.
+out : () or (N,) float64 array in C order, optional
+    Where the result goes, and what is returned then.
+threads : int, optional
+    At most so many; default: one, and for large batches all processors. The result is the same.
 
 Returns
 -------
@@ -75,12 +83,14 @@ True
 )");
   chain.def(
       "manipulability_gradient",
-      [](const Chain& c, const ArrayLike& q, const py::object& of) {
-        return gradient(c, q, of, true, [](const Dexterity& d, const Hessian& H) {
+      [](const Chain& c, const ArrayLike& q, const FrameLike& of, const OutArray& out,
+         const ThreadCount& threads) {
+        return gradient(c, q, of, {out, threads}, true, [](const Dexterity& d, const Hessian& H) {
           return d.manipulability_gradient(H);
         });
       },
-      py::arg("q"), py::arg("of") = py::none(),
+      py::arg("q"), py::arg("of") = py::none(), py::kw_only(), py::arg("out") = py::none(),
+      py::arg("threads") = py::none(),
       R"(Gradient of the manipulability, [M17] (4.31): (M/2) tr((J J^T)^-1 d(J J^T)/dq).
 
 Parameters
@@ -88,6 +98,10 @@ Parameters
 q : (n,) or (N, n), rad and m
 of : str or int, optional
     The frame that moves; default: the tool.
+out : (n,) or (N, n) float64 array in C order, optional
+    Where the result goes, and what is returned then.
+threads : int, optional
+    At most so many; default: one, and for large batches all processors. The result is the same.
 
 Returns
 -------
@@ -102,10 +116,13 @@ Examples
 )");
   chain.def(
       "condition_number",
-      [](const Chain& c, const ArrayLike& q, const py::object& of) {
-        return measure(c, q, of, [](const Dexterity& d) { return d.condition_number(); });
+      [](const Chain& c, const ArrayLike& q, const FrameLike& of, const OutArray& out,
+         const ThreadCount& threads) {
+        return measure(c, q, of, {out, threads},
+                       [](const Dexterity& d) { return d.condition_number(); });
       },
-      py::arg("q"), py::arg("of") = py::none(),
+      py::arg("q"), py::arg("of") = py::none(), py::kw_only(), py::arg("out") = py::none(),
+      py::arg("threads") = py::none(),
       R"(Condition number kappa = sigma_max/sigma_min of the Jacobian, [M17] (4.32).
 
 Parameters
@@ -113,6 +130,10 @@ Parameters
 q : (n,) or (N, n), rad and m
 of : str or int, optional
     The frame that moves; default: the tool.
+out : () or (N,) float64 array in C order, optional
+    Where the result goes, and what is returned then.
+threads : int, optional
+    At most so many; default: one, and for large batches all processors. The result is the same.
 
 Returns
 -------
@@ -129,18 +150,24 @@ True
 )");
   chain.def(
       "condition_number_gradient",
-      [](const Chain& c, const ArrayLike& q, const py::object& of) {
-        return gradient(c, q, of, false, [](const Dexterity& d, const Hessian& H) {
+      [](const Chain& c, const ArrayLike& q, const FrameLike& of, const OutArray& out,
+         const ThreadCount& threads) {
+        return gradient(c, q, of, {out, threads}, false, [](const Dexterity& d, const Hessian& H) {
           return d.condition_number_gradient(H);
         });
       },
-      py::arg("q"), py::arg("of") = py::none(), R"(Gradient of the condition number (4.32).
+      py::arg("q"), py::arg("of") = py::none(), py::kw_only(), py::arg("out") = py::none(),
+      py::arg("threads") = py::none(), R"(Gradient of the condition number (4.32).
 
 Parameters
 ----------
 q : (n,) or (N, n), rad and m
 of : str or int, optional
     The frame that moves; default: the tool.
+out : (n,) or (N, n) float64 array in C order, optional
+    Where the result goes, and what is returned then.
+threads : int, optional
+    At most so many; default: one, and for large batches all processors. The result is the same.
 
 Returns
 -------
@@ -150,6 +177,7 @@ Raises
 ------
 ValueError
     Where the largest or smallest singular value is repeated or zero: no gradient exists there.
+    What `out` holds is undefined then.
 
 Examples
 --------
@@ -159,10 +187,12 @@ Examples
 )");
   chain.def(
       "dexterity",
-      [](const Chain& c, const ArrayLike& q, const py::object& of) {
-        return measure(c, q, of, [](const Dexterity& d) { return d.dexterity(); });
+      [](const Chain& c, const ArrayLike& q, const FrameLike& of, const OutArray& out,
+         const ThreadCount& threads) {
+        return measure(c, q, of, {out, threads}, [](const Dexterity& d) { return d.dexterity(); });
       },
-      py::arg("q"), py::arg("of") = py::none(),
+      py::arg("q"), py::arg("of") = py::none(), py::kw_only(), py::arg("out") = py::none(),
+      py::arg("threads") = py::none(),
       R"(The combined measure sqrt(kappa/M), [M17] (4.33): small is good.
 
 Parameters
@@ -170,6 +200,10 @@ Parameters
 q : (n,) or (N, n), rad and m
 of : str or int, optional
     The frame that moves; default: the tool.
+out : () or (N,) float64 array in C order, optional
+    Where the result goes, and what is returned then.
+threads : int, optional
+    At most so many; default: one, and for large batches all processors. The result is the same.
 
 Returns
 -------
@@ -187,18 +221,24 @@ True
 )");
   chain.def(
       "dexterity_gradient",
-      [](const Chain& c, const ArrayLike& q, const py::object& of) {
-        return gradient(c, q, of, false, [](const Dexterity& d, const Hessian& H) {
+      [](const Chain& c, const ArrayLike& q, const FrameLike& of, const OutArray& out,
+         const ThreadCount& threads) {
+        return gradient(c, q, of, {out, threads}, false, [](const Dexterity& d, const Hessian& H) {
           return d.dexterity_gradient(H);
         });
       },
-      py::arg("q"), py::arg("of") = py::none(), R"(Gradient of sqrt(kappa/M), [M17] (4.33).
+      py::arg("q"), py::arg("of") = py::none(), py::kw_only(), py::arg("out") = py::none(),
+      py::arg("threads") = py::none(), R"(Gradient of sqrt(kappa/M), [M17] (4.33).
 
 Parameters
 ----------
 q : (n,) or (N, n), rad and m
 of : str or int, optional
     The frame that moves; default: the tool.
+out : (n,) or (N, n) float64 array in C order, optional
+    Where the result goes, and what is returned then.
+threads : int, optional
+    At most so many; default: one, and for large batches all processors. The result is the same.
 
 Returns
 -------
@@ -208,6 +248,7 @@ Raises
 ------
 ValueError
     Where the largest or smallest singular value is repeated or zero: no gradient exists there.
+    What `out` holds is undefined then.
 
 Examples
 --------

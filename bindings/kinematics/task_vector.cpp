@@ -1,7 +1,7 @@
 #include "thing_kin/kinematics/task_vector.hpp"
 
-#include "array.hpp"
 #include "bindings.hpp"
+#include "map.hpp"
 #include "thing_kin/core/error.hpp"
 
 namespace thing_kin::python {
@@ -20,17 +20,23 @@ void check_base(const Chain& chain) {
 void bind_task_vector(ChainClass& chain) {
   chain.def(
       "base_pose",
-      [](const Chain& c, const ArrayLike& q) {
+      [](const Chain& c, const ArrayLike& q, const OutArray& out, const ThreadCount& threads) {
         check_base(c);
-        return map(read_vectors(q, "q", c.dof()), {3}, [&](const double* in, double* out) {
-          Eigen::Map<Eigen::Vector3d>{out} = base_pose(c, in);
-        });
+        return map(read_vectors(q, "q", c.dof()), {3}, {out, threads},
+                   [&](const double* in, double* to) {
+                     Eigen::Map<Eigen::Vector3d>{to} = base_pose(c, in);
+                   });
       },
-      py::arg("q"), R"(Planar pose of the base (x, y, theta), as it stands in q, [M17] (3.4).
+      py::arg("q"), py::kw_only(), py::arg("out") = py::none(), py::arg("threads") = py::none(),
+      R"(Planar pose of the base (x, y, theta), as it stands in q, [M17] (3.4).
 
 Parameters
 ----------
 q : (n,) or (N, n), rad and m
+out : (3,) or (N, 3) float64 array in C order, optional
+    Where the result goes, and what is returned then.
+threads : int, optional
+    At most so many; default: one, and for large batches all processors. The result is the same.
 
 Returns
 -------
@@ -50,17 +56,22 @@ array([1. , 2. , 0.5])
 )");
   chain.def(
       "task_vector",
-      [](const Chain& c, const ArrayLike& q) {
+      [](const Chain& c, const ArrayLike& q, const OutArray& out, const ThreadCount& threads) {
         check_base(c);
-        return map(read_vectors(q, "q", c.dof()), {10}, [&](const double* in, double* out) {
-          Eigen::Map<TaskVector>{out} = task_vector(c, in);
-        });
+        return map(
+            read_vectors(q, "q", c.dof()), {10}, {out, threads},
+            [&](const double* in, double* to) { Eigen::Map<TaskVector>{to} = task_vector(c, in); });
       },
-      py::arg("q"), R"(Task vector [p, quaternion w x y z, x, y, theta], [M17] (3.3)-(3.5).
+      py::arg("q"), py::kw_only(), py::arg("out") = py::none(), py::arg("threads") = py::none(),
+      R"(Task vector [p, quaternion w x y z, x, y, theta], [M17] (3.3)-(3.5).
 
 Parameters
 ----------
 q : (n,) or (N, n), rad and m
+out : (10,) or (N, 10) float64 array in C order, optional
+    Where the result goes, and what is returned then.
+threads : int, optional
+    At most so many; default: one, and for large batches all processors. The result is the same.
 
 Returns
 -------

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "array.hpp"
 #include "bindings.hpp"
+#include "map.hpp"
 #include "thing_kin/core/error.hpp"
 #include "thing_kin/lie/so3.hpp"
 

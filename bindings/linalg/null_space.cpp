@@ -1,7 +1,7 @@
 #include "thing_kin/linalg/null_space.hpp"
 
-#include "array.hpp"
 #include "bindings.hpp"
+#include "map.hpp"
 #include "thing_kin/core/error.hpp"
 
 namespace thing_kin::python {

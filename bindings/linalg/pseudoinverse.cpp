@@ -4,8 +4,8 @@
 
 #include <pybind11/stl.h>
 
-#include "array.hpp"
 #include "bindings.hpp"
+#include "map.hpp"
 #include "thing_kin/core/error.hpp"
 #include "thing_kin/linalg/singular_value_filter.hpp"
 

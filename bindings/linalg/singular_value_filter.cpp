@@ -2,8 +2,8 @@
 
 #include <pybind11/operators.h>
 
-#include "array.hpp"
 #include "bindings.hpp"
+#include "map.hpp"
 #include "thing_kin/core/error.hpp"
 
 namespace thing_kin::python {

@@ -2,7 +2,7 @@
 
 #include <mutex>
 
-#include "array.hpp"
+#include "map.hpp"
 #include "model/chain.hpp"
 #include "thing_kin/core/error.hpp"
 

@@ -36,7 +36,9 @@ from thing_kin._core import (
     pinv,
     pose_error,
     selectively_damped_step,
+    simd_level,
     transform,
+    use_simd_level,
 )
 
 __all__ = [
@@ -64,5 +66,7 @@ __all__ = [
     "pose_error",
     "robots",
     "selectively_damped_step",
+    "simd_level",
     "transform",
+    "use_simd_level",
 ]

@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "make_skeleton.hpp"
 #include "thing_kin/core/error.hpp"
 
 namespace thing_kin {
@@ -86,6 +87,10 @@ Chain::Chain(ChainDescription description) : description_(std::move(description)
                           "each of 0 ... n - 1 once");
   }
   collect_joints();
+  skeleton_ = make_skeleton(joints_);
+  for (const Frame& frame : frames_) {
+    skeleton_frames_.push_back(make_skeleton_frame(joints_, frame));
+  }
 }
 
 void Chain::fold() {

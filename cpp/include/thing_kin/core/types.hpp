@@ -2,11 +2,9 @@
 
 #include <Eigen/Core>
 
-namespace thing_kin {
+#include "thing_kin/core/max_dof.hpp"
 
-/// The most joints a chain may have. Every size in a control loop is bounded by it, so that the
-/// loop's matrices live on the stack and nothing there allocates.
-inline constexpr int kMaxDof = 32;
+namespace thing_kin {
 
 /// The most rows one task may have: a posture task has a row for each joint.
 inline constexpr int kMaxTaskRows = kMaxDof;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "thing_kin/core/types.hpp"
 #include "thing_kin/lie/se3.hpp"
 #include "thing_kin/model/chain.hpp"
@@ -10,9 +8,10 @@ namespace thing_kin {
 
 /// Where every joint is at one q: what forward kinematics, Jacobian and Hessian read.
 struct Posture {
-  /// Moved frame of each joint, from the root outwards; its z is the joint's axis, its origin lies
-  /// on it.
-  std::array<SE3, kMaxDof> joint;
+  /// Moved frame of each joint, from the root outwards: columns x, y, z, origin, each padded to
+  /// four numbers. z is the joint's axis, the origin lies on it; how far x is turned about z is the
+  /// skeleton's business (model/skeleton.hpp).
+  alignas(64) double columns[16 * kMaxDof];
 };
 
 /// Fills a posture, [M17] (3.8). q has chain.dof() finite entries.

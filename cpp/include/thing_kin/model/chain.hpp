@@ -9,6 +9,7 @@
 #include "thing_kin/core/types.hpp"
 #include "thing_kin/model/dh.hpp"
 #include "thing_kin/model/segment.hpp"
+#include "thing_kin/model/skeleton.hpp"
 
 namespace thing_kin {
 
@@ -25,7 +26,7 @@ struct ChainDescription {
 
 /// An immutable serial chain: what every algorithm reads, and all threads share.
 ///
-/// Fixed segments are folded away: at run time the chain is `count` joints about or along z, with a
+/// Fixed segments are folded away: at run time the chain is joints about or along z, with a
 /// constant transform between neighbours, and frames that hang off them.
 class Chain {
  public:
@@ -54,6 +55,12 @@ class Chain {
 
   std::span<const Joint> joints() const { return joints_; }
   std::span<const Frame> frames() const { return frames_; }
+
+  /// Joints and frames once more, as the kinematics kernels read them.
+  const Skeleton& skeleton() const { return skeleton_; }
+  const SkeletonFrame& skeleton_frame(int frame) const {
+    return skeleton_frames_[static_cast<std::size_t>(frame)];
+  }
 
   /// In the order of q.
   const std::vector<std::string>& joint_names() const { return joint_names_; }
@@ -88,6 +95,8 @@ class Chain {
   ChainDescription description_;
   std::vector<Joint> joints_;
   std::vector<Frame> frames_;
+  Skeleton skeleton_;
+  std::vector<SkeletonFrame> skeleton_frames_;
   std::vector<std::string> joint_names_;
   std::vector<JointType> joint_types_;
   JointVector lower_, upper_, velocity_limits_, acceleration_limits_;

@@ -1,0 +1,114 @@
+#pragma once
+
+// From an array of configurations to an array of results: one after the other or on several
+// threads, in a new array or in the caller's.
+
+#include <initializer_list>
+
+#include "array.hpp"
+#include "thing_kin/core/parallel.hpp"
+
+namespace thing_kin::python {
+
+/// An argument `out`: None, or the array for the results.
+class OutArray : public py::object {
+ public:
+  PYBIND11_OBJECT_DEFAULT(OutArray, object, [](PyObject*) { return 1; })
+};
+
+/// An argument `threads`: None for as many as pay, or how many at most.
+class ThreadCount : public py::object {
+ public:
+  PYBIND11_OBJECT_DEFAULT(ThreadCount, object, [](PyObject*) { return 1; })
+};
+
+/// Where the results of a batch go and who computes them. A plain value, so that a call with
+/// neither argument costs nothing.
+struct Run {
+  const OutArray& out;
+  const ThreadCount& threads;
+};
+
+/// 0 for None; throws InvalidArgument for anything but None and whole numbers from 1.
+int read_threads(const ThreadCount& threads);
+
+/// The caller's `out` or a new C-ordered array: shape `item`, with a leading axis if the batch has
+/// one. Throws InvalidArgument if `out` has another shape, another dtype, another order or is
+/// read-only. An input that shares memory with it is copied first.
+Array make_output(Batch& batch, std::initializer_list<py::ssize_t> item, const OutArray& out);
+
+/// Rows a thread gets at least where a row costs some microseconds.
+inline constexpr std::size_t kCostlyRowsPerThread = 64;
+/// The same where it costs some tenths.
+inline constexpr std::size_t kCheapRowsPerThread = 1024;
+
+/// out[i] = function(in[i]) for every item; without the GIL if there is a batch. `function(const
+/// double* in, double* out)` must not touch Python.
+template <typename Function>
+Array map(Batch batch, std::initializer_list<py::ssize_t> item, const Run& run,
+          const Function& function, std::size_t rows_per_thread = kCheapRowsPerThread) {
+  const int threads = read_threads(run.threads);
+  Array out = make_output(batch, item, run.out);
+  double* to = out.mutable_data();
+  if (batch.single) {
+    function(batch.data, to);
+    return out;
+  }
+  const py::ssize_t stride = batch.count > 0 ? out.size() / batch.count : 0;
+  const py::gil_scoped_release release;
+  const auto count = static_cast<std::size_t>(batch.count);
+  parallel_ranges(count, thread_count(threads, count, rows_per_thread), 1,
+                  [&](std::size_t first, std::size_t last) {
+                    for (auto i = static_cast<py::ssize_t>(first);
+                         i < static_cast<py::ssize_t>(last); ++i) {
+                      function(batch.item(i), to + i * stride);
+                    }
+                  });
+  return out;
+}
+
+/// What stands for `out` and `threads` in functions that have neither: a new array, one thread.
+struct Serial {
+  OutArray out = py::reinterpret_borrow<OutArray>(py::none());
+  ThreadCount threads = py::reinterpret_steal<ThreadCount>(PyLong_FromLong(1));
+};
+
+template <typename Function>
+Array map(const Batch& batch, std::initializer_list<py::ssize_t> item, const Function& function) {
+  const Serial serial;
+  return map(batch, item, Run{serial.out, serial.threads}, function);
+}
+
+/// As map(), for functions that return one double.
+template <typename Function>
+FloatOrArray map_scalar(const Batch& batch, const Run& run, const Function& function) {
+  if (batch.single && run.out.is_none()) {
+    read_threads(run.threads);
+    return py::reinterpret_steal<FloatOrArray>(PyFloat_FromDouble(function(batch.data)));
+  }
+  const auto store = [&](const double* in, double* out) { *out = function(in); };
+  return py::reinterpret_steal<FloatOrArray>(
+      map(batch, {}, run, store, kCostlyRowsPerThread).release());
+}
+
+template <typename Function>
+FloatOrArray map_scalar(const Batch& batch, const Function& function) {
+  const Serial serial;
+  return map_scalar(batch, Run{serial.out, serial.threads}, function);
+}
+
+}  // namespace thing_kin::python
+
+namespace pybind11::detail {
+
+template <>
+struct handle_type_name<thing_kin::python::OutArray> {
+  static constexpr auto name = const_name("numpy.typing.NDArray[numpy.float64] | None");
+};
+
+template <>
+struct handle_type_name<thing_kin::python::ThreadCount> {
+  static constexpr auto name = const_name("typing.SupportsIndex | None");
+};
+
+}  // namespace pybind11::detail

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "thing_kin/kinematics/jacobian.hpp"
+
+namespace thing_kin {
+
+/// How a pose is written in a batch.
+enum class PoseFormat : std::uint8_t {
+  kMatrix,              ///< (4, 4), row-major
+  kPositionQuaternion,  ///< [x, y, z, w, x, y, z] with w >= 0
+};
+
+inline int numbers_of(PoseFormat format) { return format == PoseFormat::kMatrix ? 16 : 7; }
+
+/// Many configurations at once: `q` and the results are rows one after the other, in C order.
+/// Several poses are computed side by side in the lanes of one instruction, and large batches on
+/// several threads; every row's result is the same for any number of rows and threads.
+struct JointBatch {
+  const double* q = nullptr;
+  std::size_t count = 0;
+  int threads = 0;  ///< 0: as many as pay
+};
+
+/// Poses of a frame; `out` has numbers_of(format) a row.
+void forward_kinematics(const Chain& chain, const JointBatch& batch, int frame, PoseFormat format,
+                        double* out);
+
+/// Geometric Jacobians, (6, n) row-major a row, and poses, (4, 4), unless `T` is null.
+void geometric_jacobian(const Chain& chain, const JointBatch& batch, int frame,
+                        ReferenceFrame reference, double* T, double* J);
+
+}  // namespace thing_kin

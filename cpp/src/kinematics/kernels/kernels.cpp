@@ -1,0 +1,181 @@
+// Compiled once for each instruction set: cpp/CMakeLists.txt defines THING_KIN_LEVEL (a namespace)
+// and THING_KIN_LANES.
+
+#include "kernels.hpp"
+
+#include "quaternion.hpp"
+#include "walk.hpp"
+
+namespace thing_kin::THING_KIN_LEVEL {
+
+namespace {
+
+constexpr double kHalfTurnTolerance = 0x1p-49;  // as core/tolerance.hpp has it
+
+void place(const Skeleton& skeleton, const double* q, int joints, double* columns) noexcept {
+  const Motion motion(skeleton, q, joints);
+  walk<Column>(skeleton, joints, motion,
+               [&](int i, const Frame<Column>& frame) { write(frame, columns + 16 * i); });
+}
+
+void pose(const Skeleton& skeleton, const SkeletonFrame& frame, const double* q,
+          double* columns) noexcept {
+  if (frame.joints == 0) {
+    for (int i = 0; i < 16; ++i) {
+      columns[i] = frame.offset[i];
+    }
+    return;
+  }
+  const Motion motion(skeleton, q, frame.joints);
+  const auto placed =
+      walk<Column>(skeleton, frame.joints, motion, [](int, const Frame<Column>&) {});
+  write(attach(frame, placed), columns);
+}
+
+// Pose of a frame whose joints are placed already; `last` is that of joint frame.joints - 1.
+template <typename C>
+Frame<C> end_of(const SkeletonFrame& frame, const Frame<C>& last) {
+  if (frame.joints > 0) {
+    return attach(frame, last);
+  }
+  Frame<C> end;
+  read(frame.offset, end);
+  return end;
+}
+
+// v in the axes of the frame whose axes make up the rows.
+Column in_axes(const Column rows[3], const Column& v) {
+  return v[0] * rows[0] + v[1] * rows[1] + v[2] * rows[2];
+}
+
+Columns in_axes(const Frame<Columns>& frame, const Columns& v) {
+  const auto dot = [&](const Columns& a) { return a.x * v.x + a.y * v.y + a.z * v.z; };
+  return {dot(frame.x), dot(frame.y), dot(frame.z)};
+}
+
+void jacobian(const Skeleton& skeleton, const SkeletonFrame& frame, const double* placed,
+              Kernels::Reference reference, double* J) noexcept {
+  Frame<Column> end{};
+  if (frame.joints > 0) {
+    read(placed + 16 * (frame.joints - 1), end);
+  }
+  end = end_of(frame, end);
+  const Column point = reference == Kernels::kWorld ? Column{} : end.origin;
+  Column rows[3];
+  for (int i = 0; i < 3; ++i) {
+    const double row[] = {end.x[i], end.y[i], end.z[i], 0.0};
+    read(row, rows[i]);
+  }
+  for (int i = 0; i < skeleton.joints; ++i) {
+    const Skeleton::Step& step = skeleton.step[i];
+    Column v{};
+    Column w{};
+    if (i < frame.joints) {
+      Column z;
+      read(placed + 16 * i + 8, z);
+      z = reference == Kernels::kBody ? in_axes(rows, z) : z;
+      if (step.prismatic) {
+        v = z;
+      } else {
+        Column origin;
+        read(placed + 16 * i + 12, origin);
+        Column arm = point - origin;
+        arm = reference == Kernels::kBody ? in_axes(rows, arm) : arm;
+        v = cross(z, arm);
+        w = z;
+      }
+    }
+    double* to = J + 6 * step.index;
+    write(v, to);  // its pad is overwritten next
+    to[3] = w[0];
+    to[4] = w[1];
+    to[5] = w[2];
+  }
+}
+
+int put_matrix(const Frame<Columns>& T, Lanes* to) {
+  const Lanes zero = splat(0.0);
+  const Lanes rows[] = {T.x.x, T.y.x, T.z.x, T.origin.x,  //
+                        T.x.y, T.y.y, T.z.y, T.origin.y,  //
+                        T.x.z, T.y.z, T.z.z, T.origin.z,  //
+                        zero,  zero,  zero,  splat(1.0)};
+  for (int i = 0; i < 16; ++i) {
+    to[i] = rows[i];
+  }
+  return 16;
+}
+
+int put_position_quaternion(const Frame<Columns>& T, Lanes* to) {
+  const Quaternion q = quaternion_of(T, kHalfTurnTolerance);
+  const Lanes row[] = {T.origin.x, T.origin.y, T.origin.z, q.w, q.x, q.y, q.z};
+  for (int i = 0; i < 7; ++i) {
+    to[i] = row[i];
+  }
+  return 7;
+}
+
+void poses(const Skeleton& skeleton, const SkeletonFrame& frame, const double* q, long count,
+           Kernels::Format format, double* out) noexcept {
+  for_lanes(skeleton, q, count, frame.joints, [&](long first, int rows, const Motions& motions) {
+    const auto placed =
+        walk<Columns>(skeleton, frame.joints, motions, [](int, const Frame<Columns>&) {});
+    const Frame<Columns> T = end_of(frame, placed);
+    Lanes components[16];
+    const int size = format == Kernels::kMatrix ? put_matrix(T, components)
+                                                : put_position_quaternion(T, components);
+    store_rows(components, size, rows, out + first * size);
+  });
+}
+
+// (6, joints) in row order, with zeros for the joints beyond the frame.
+void put_jacobian(const Skeleton& skeleton, int moving, const Columns* axis, const Columns* origin,
+                  const Frame<Columns>& end, Kernels::Reference reference, Lanes* to) {
+  const Lanes zero = splat(0.0);
+  const Columns none{zero, zero, zero};
+  const Columns point = reference == Kernels::kWorld ? none : end.origin;
+  const int n = skeleton.joints;
+  for (int i = 0; i < n; ++i) {
+    const Skeleton::Step& step = skeleton.step[i];
+    Columns v = none;
+    Columns w = none;
+    if (i < moving && step.prismatic) {
+      v = reference == Kernels::kBody ? in_axes(end, axis[i]) : axis[i];
+    } else if (i < moving) {
+      v = cross(axis[i], point - origin[i]);
+      v = reference == Kernels::kBody ? in_axes(end, v) : v;
+      w = reference == Kernels::kBody ? in_axes(end, axis[i]) : axis[i];
+    }
+    const Lanes column[] = {v.x, v.y, v.z, w.x, w.y, w.z};
+    for (int row = 0; row < 6; ++row) {
+      to[row * n + step.index] = column[row];
+    }
+  }
+}
+
+void jacobians(const Skeleton& skeleton, const SkeletonFrame& frame, const double* q, long count,
+               Kernels::Reference reference, double* T, double* J) noexcept {
+  const int n = skeleton.joints;
+  for_lanes(skeleton, q, count, frame.joints, [&](long first, int rows, const Motions& motions) {
+    Columns axis[kMaxDof];
+    Columns origin[kMaxDof];
+    const auto placed =
+        walk<Columns>(skeleton, frame.joints, motions, [&](int i, const Frame<Columns>& at) {
+          axis[i] = at.z;
+          origin[i] = at.origin;
+        });
+    const Frame<Columns> end = end_of(frame, placed);
+    Lanes components[6 * kMaxDof];
+    if (T != nullptr) {
+      store_rows(components, put_matrix(end, components), rows, T + 16 * first);
+    }
+    put_jacobian(skeleton, frame.joints, axis, origin, end, reference, components);
+    store_rows(components, 6 * n, rows, J + 6 * n * first);
+  });
+}
+
+}  // namespace
+
+extern const Kernels kKernels;
+const Kernels kKernels{place, pose, jacobian, poses, jacobians};
+
+}  // namespace thing_kin::THING_KIN_LEVEL

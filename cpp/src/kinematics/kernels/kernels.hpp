@@ -1,0 +1,37 @@
+#pragma once
+
+#include "thing_kin/model/skeleton.hpp"
+
+namespace thing_kin {
+
+/// The loops of forward kinematics and Jacobian, compiled for one instruction set. Numbers only:
+/// see lanes.hpp. Columns are x, y, z, origin of a frame, each padded to four numbers.
+struct Kernels {
+  enum Reference { kWorldAligned, kBody, kWorld };
+  enum Format { kMatrix, kPositionQuaternion };
+
+  /// Frames of the first `joints` joints after their motion: 16 numbers each.
+  void (*place)(const Skeleton& skeleton, const double* q, int joints, double* columns) noexcept;
+
+  /// Pose of a frame: 16 numbers.
+  void (*pose)(const Skeleton& skeleton, const SkeletonFrame& frame, const double* q,
+               double* columns) noexcept;
+
+  /// Jacobian of a frame of placed joints, (6, joints) in column order.
+  void (*jacobian)(const Skeleton& skeleton, const SkeletonFrame& frame, const double* placed,
+                   Reference reference, double* J) noexcept;
+
+  /// Poses for `count` rows of q: 16 numbers each, row-major, or 7.
+  void (*poses)(const Skeleton& skeleton, const SkeletonFrame& frame, const double* q, long count,
+                Format format, double* out) noexcept;
+
+  /// Jacobians for `count` rows of q, (6, joints) each in row order; row-major poses too unless T
+  /// is null.
+  void (*jacobians)(const Skeleton& skeleton, const SkeletonFrame& frame, const double* q,
+                    long count, Reference reference, double* T, double* J) noexcept;
+};
+
+/// Those of the level in use (core/simd.hpp).
+const Kernels& kernels() noexcept;
+
+}  // namespace thing_kin
