@@ -85,7 +85,8 @@ int read_threads(const ThreadCount& threads) {
   return count;
 }
 
-Array make_output(Batch& batch, std::initializer_list<py::ssize_t> item, const OutArray& out) {
+Array make_output(const Batch& batch, std::initializer_list<py::ssize_t> item,
+                  const OutArray& out) {
   if (out.is_none()) {
     return make_array(batch, item);
   }
@@ -94,13 +95,15 @@ Array make_output(Batch& batch, std::initializer_list<py::ssize_t> item, const O
   for (const py::ssize_t length : item) {
     shape[static_cast<std::size_t>(dimensions++)] = length;
   }
-  Array array = checked(out, shape.data(), dimensions);
-  if (overlap(batch, array)) {
+  return checked(out, shape.data(), dimensions);
+}
+
+void detach(Batch& batch, const Array& out) {
+  if (overlap(batch, out)) {
     const Array copy(batch.count * batch.size, batch.data);
     batch.data = copy.data();
     batch.owner = copy;
   }
-  return array;
 }
 
 }  // namespace thing_kin::python

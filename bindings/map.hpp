@@ -3,6 +3,8 @@
 // From an array of configurations to an array of results: one after the other or on several
 // threads, in a new array or in the caller's.
 
+#include <array>
+#include <cstddef>
 #include <initializer_list>
 
 #include "array.hpp"
@@ -34,37 +36,66 @@ int read_threads(const ThreadCount& threads);
 
 /// The caller's `out` or a new C-ordered array: shape `item`, with a leading axis if the batch has
 /// one. Throws InvalidArgument if `out` has another shape, another dtype, another order or is
-/// read-only. An input that shares memory with it is copied first.
-Array make_output(Batch& batch, std::initializer_list<py::ssize_t> item, const OutArray& out);
+/// read-only.
+Array make_output(const Batch& batch, std::initializer_list<py::ssize_t> item, const OutArray& out);
+
+/// Copies an input that shares memory with the output.
+void detach(Batch& batch, const Array& out);
 
 /// Rows a thread gets at least where a row costs some microseconds.
 inline constexpr std::size_t kCostlyRowsPerThread = 64;
 /// The same where it costs some tenths.
 inline constexpr std::size_t kCheapRowsPerThread = 1024;
 
-/// out[i] = function(in[i]) for every item; without the GIL if there is a batch. `function(const
-/// double* in, double* out)` must not touch Python.
-template <typename Function>
-Array map(Batch batch, std::initializer_list<py::ssize_t> item, const Run& run,
-          const Function& function, std::size_t rows_per_thread = kCheapRowsPerThread) {
+/// Several inputs of one function.
+template <std::size_t K>
+using Batches = std::array<Batch, K>;
+
+/// out[i] = function(in[i]) for every item of the batches; those that are single go with each.
+/// Without the GIL if there is a batch: `function(const std::array<const double*, K>& in, double*
+/// out)` must not touch Python.
+template <std::size_t K, typename Function>
+Array map_together(Batches<K>& batches, std::initializer_list<py::ssize_t> item, const Run& run,
+                   const Function& function, std::size_t rows_per_thread = kCheapRowsPerThread) {
+  const Batch* longest = batches.data();
+  for (const Batch& batch : batches) {
+    longest = longest->single ? &batch : longest;
+  }
   const int threads = read_threads(run.threads);
-  Array out = make_output(batch, item, run.out);
-  double* to = out.mutable_data();
-  if (batch.single) {
-    function(batch.data, to);
+  Array out = make_output(*longest, item, run.out);
+  if (!run.out.is_none()) {
+    for (Batch& batch : batches) {
+      detach(batch, out);
+    }
+  }
+  double* const to = out.mutable_data();
+  const py::ssize_t stride = longest->count > 0 ? out.size() / longest->count : 0;
+  const auto compute = [&](std::size_t first, std::size_t last) {
+    for (auto i = static_cast<py::ssize_t>(first); i < static_cast<py::ssize_t>(last); ++i) {
+      std::array<const double*, K> in;
+      for (std::size_t k = 0; k < K; ++k) {
+        in[k] = batches[k].item(batches[k].single ? 0 : i);
+      }
+      function(in, to + i * stride);
+    }
+  };
+  if (longest->single) {
+    compute(0, 1);
     return out;
   }
-  const py::ssize_t stride = batch.count > 0 ? out.size() / batch.count : 0;
+  const auto count = static_cast<std::size_t>(longest->count);
   const py::gil_scoped_release release;
-  const auto count = static_cast<std::size_t>(batch.count);
-  parallel_ranges(count, thread_count(threads, count, rows_per_thread), 1,
-                  [&](std::size_t first, std::size_t last) {
-                    for (auto i = static_cast<py::ssize_t>(first);
-                         i < static_cast<py::ssize_t>(last); ++i) {
-                      function(batch.item(i), to + i * stride);
-                    }
-                  });
+  parallel_ranges(count, thread_count(threads, count, rows_per_thread), 1, compute);
   return out;
+}
+
+/// As above for one input: `function(const double* in, double* out)`.
+template <typename Function>
+Array map(const Batch& batch, std::initializer_list<py::ssize_t> item, const Run& run,
+          const Function& function, std::size_t rows_per_thread = kCheapRowsPerThread) {
+  const auto of_one = [&](const auto& in, double* out) { function(in[0], out); };
+  Batches<1> batches{batch};
+  return map_together(batches, item, run, of_one, rows_per_thread);
 }
 
 /// What stands for `out` and `threads` in functions that have neither: a new array, one thread.

@@ -30,9 +30,12 @@ PYBIND11_MODULE(_core, m) {
   bind_posture(chain);
   bind_jacobian(chain);
   bind_hessian(chain);
+  bind_jacobian_dot(chain);
+  bind_acceleration(chain);
   bind_manipulability(chain);
   bind_pose_error(m);
   bind_task_vector(chain);
+  bind_analytic_jacobian(chain);
 
   bind_differential_inverse(m);
   bind_task(m);

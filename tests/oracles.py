@@ -82,6 +82,38 @@ class PinocchioChain:
         J = pin.computeFrameJacobian(self.model, self.data, q, at, REFERENCES[frame])
         return J.reshape(6, self.model.nv).copy()  # of a single joint Pinocchio drops the axis
 
+    def add_point(self, of: int, point: Array) -> int:
+        """A frame at a point of another one, with its axes; its index, to be used as `of`."""
+        at = self.model.frames[self.frames[of]]
+        placement = at.placement * pin.SE3(np.eye(3), point)
+        name = f"point{len(self.frames)}"
+        frame = pin.Frame(name, at.parentJoint, placement, pin.FrameType.OP_FRAME)
+        self.frames.append(self.model.addFrame(frame))
+        self.data = self.model.createData()
+        return len(self.frames) - 1
+
+    def jacobian_dot(self, q: Array, qd: Array, frame: str, of: int) -> Array:
+        pin.computeJointJacobiansTimeVariation(self.model, self.data, q, qd)
+        pin.updateFramePlacements(self.model, self.data)
+        at = self.frames[of]
+        dJ = pin.getFrameJacobianTimeVariation(self.model, self.data, at, REFERENCES[frame])
+        return dJ.reshape(6, self.model.nv).copy()
+
+    def velocity(self, q: Array, qd: Array, frame: str, of: int) -> Array:
+        pin.forwardKinematics(self.model, self.data, q, qd)
+        at = self.frames[of]
+        return pin.getFrameVelocity(self.model, self.data, at, REFERENCES[frame]).vector.copy()
+
+    def acceleration(
+        self, q: Array, qd: Array, qdd: Array, frame: str, of: int, kind: str
+    ) -> Array:
+        pin.forwardKinematics(self.model, self.data, q, qd, qdd)
+        get = {
+            "classical": pin.getFrameClassicalAcceleration,
+            "spatial": pin.getFrameAcceleration,
+        }[kind]
+        return get(self.model, self.data, self.frames[of], REFERENCES[frame]).vector.copy()
+
 
 def derivative(f: Callable[[Array], Array | float], x: Array, step: float = 1e-3) -> Array:
     """df/dx_k on the last axis, by central differences of fourth order.
@@ -95,6 +127,14 @@ def derivative(f: Callable[[Array], Array | float], x: Array, step: float = 1e-3
         far = np.subtract(f(x + 2 * e), f(x - 2 * e))
         columns.append((8 * near - far) / (12 * step))
     return np.stack(columns, axis=-1)
+
+
+def time_derivative(f: Callable[[Array], Array], q: Array, qd: Array) -> Array:
+    """df(q(t))/dt for rates whose absolute values add up to at most one.
+
+    Then no sine in it turns faster than 1 rad/s, as for derivative().
+    """
+    return derivative(lambda t: f(q + t[0] * qd), np.zeros(1))[..., 0]
 
 
 def hat(w: Array) -> Array:

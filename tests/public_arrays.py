@@ -64,16 +64,44 @@ CHAIN = [
     for infinite, methods in (
         (False, "fk fk_all jacobian hessian manipulability manipulability_gradient"),
         (False, "condition_number_gradient dexterity_gradient base_pose task_vector"),
+        (False, "analytic_jacobian task_jacobian"),
         (True, "condition_number dexterity"),
     )
     for method in methods.split()
+]
+QD, QDD, POINT = np.linspace(-1.0, 1.0, 9), np.linspace(0.3, -0.7, 9), XI[:3]
+
+
+def moving(method: str, name: str) -> Callable[[Any], Any]:
+    """A call of `method` where `name` is free."""
+    known = {"q": Q, "qd": QD} | ({"qdd": QDD} if method == "acceleration" else {})
+    if method in ("jacobian", "hessian", "analytic_jacobian"):
+        known = {"q": Q}
+    return lambda value: getattr(ROBOT, method)(**{**known, name: value})
+
+
+MOTION = [
+    Argument(f"Chain.{method}", name, good, moving(method, name), moderate=name == "q")
+    for method, names in (
+        ("jacobian", "point"),
+        ("hessian", "point"),
+        ("analytic_jacobian", "point"),
+        ("jacobian_dot", "q qd point"),
+        ("velocity", "q qd point"),
+        ("drift", "q qd point"),
+        ("acceleration", "q qd qdd point"),
+    )
+    for name, good in {"q": Q, "qd": QD, "qdd": QDD, "point": POINT}.items()
+    if name in names.split()
 ]
 LIE = [
     Argument(name, argument, good, getattr(lie, name), moderate=True)
     for name in lie.__all__
     for argument, good in [
         ("quaternion", np.array([0.5, 0.5, -0.5, 0.5])) if name == "rotation_from_quaternion"
-        else ("R", T[:3, :3]) if name in ("so3_log", "quaternion_from_rotation")
+        else ("R", T[:3, :3])
+        if name in ("so3_log", "quaternion_from_rotation", "rpy_from_rotation")
+        else ("rpy", XI[3:]) if name == "rotation_from_rpy"
         else ("T", T) if name in ("se3_log", "se3_adjoint")
         else ("phi", XI[3:]) if name.startswith("so3")
         else ("xi", XI)
@@ -123,11 +151,12 @@ TASK_PRIORITY = [
         infinite=True,
     ),
 ]
-ARGUMENTS = [*CHAIN, *LIE, *LINALG, *MODEL, *TASK_PRIORITY]
+ARGUMENTS = [*CHAIN, *MOTION, *LIE, *LINALG, *MODEL, *TASK_PRIORITY]
 
 # None means "not given" to these.
 OPTIONAL = {"damping", "mount", "rpy", "null_motion", "lower", "upper", "step_limit"} | {
     "velocity_limits",
     "acceleration_limits",
     "quaternion",
+    "point",
 }

@@ -67,6 +67,35 @@ def cases(draw: st.DrawFn, max_rows: int = 12) -> Case:
     return Case(tuple(rows), chain, np.array(q), draw(st.integers(0, len(rows))))
 
 
+@dataclass(frozen=True)
+class Motion:
+    """A case in motion: its rates' absolute values add up to at most one; a point of the frame."""
+
+    case: Case
+    qd: Vector
+    qdd: Vector
+    point: Vector
+
+
+@st.composite
+def rates(draw: st.DrawFn, n: int) -> Vector:
+    """Zero, one joint's, or all joints'; the sum of their absolute values is at most one."""
+    kind = draw(st.sampled_from(("all", "all", "all", "one", "zero")))
+    if kind == "zero":
+        return np.zeros(n)
+    if kind == "one":
+        return draw(st.sampled_from((-1.0, 0.5, 1.0))) * np.eye(n)[draw(st.integers(0, n - 1))]
+    return np.random.default_rng(draw(seeds)).uniform(-1.0, 1.0, n) / n
+
+
+@st.composite
+def motions(draw: st.DrawFn, max_rows: int = 12) -> Motion:
+    case = draw(cases(max_rows))
+    qd, qdd = draw(rates(case.chain.n)), draw(rates(case.chain.n))
+    point = np.array(draw(st.just((0.0, 0.0, 0.0)) | st.tuples(lengths, lengths, lengths)))
+    return Motion(case, qd, qdd, point)
+
+
 @st.composite
 def unit_vectors(draw: st.DrawFn) -> Vector:
     if draw(st.booleans()):

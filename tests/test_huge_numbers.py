@@ -59,10 +59,26 @@ def test_inverses(size: float) -> None:
 
 
 @pytest.mark.parametrize("size", [1e6, *HUGE])
-@pytest.mark.parametrize("method", ["fk", "jacobian", "hessian", "task_vector"])
+@pytest.mark.parametrize(
+    "method", ["fk", "jacobian", "hessian", "task_vector", "analytic_jacobian", "task_jacobian"]
+)
 def test_configurations(method: str, size: float) -> None:
     call = getattr(tk.robots.thing(), method)
     refused_or(lambda: call(np.full(9, size)), lambda result: np.isfinite(result).all())
+
+
+@pytest.mark.parametrize("frame", ["world_aligned", "body", "world"])
+@pytest.mark.parametrize("size", [1e6, 1e50, *HUGE])
+@pytest.mark.parametrize("method", ["jacobian_dot", "velocity", "drift", "acceleration"])
+def test_motions(method: str, size: float, frame: str) -> None:
+    robot, right = tk.robots.thing(), lambda result: np.isfinite(result).all()
+    count = 3 if method == "acceleration" else 2
+    good = [np.full(9, 0.3)] * count
+    for huge in range(count):
+        motion = [np.full(9, size) if i == huge else x for i, x in enumerate(good)]
+        refused_or(lambda m=motion: getattr(robot, method)(*m, frame), right)
+    everything = [np.full(9, size)] * count
+    refused_or(lambda: getattr(robot, method)(*everything, frame, point=[size] * 3), right)
 
 
 @pytest.mark.parametrize("size", [1e6, *HUGE])

@@ -111,3 +111,47 @@ def test_quaternions_in_a_batch():
     Q = tk.lie.quaternion_from_rotation(R)
     assert_array_equal(Q, np.stack([tk.lie.quaternion_from_rotation(r) for r in R]))
     assert_close(tk.lie.rotation_from_quaternion(Q), R, ATOL)
+
+
+@given(rotations())
+def test_roll_pitch_yaw_give_the_rotation_back(R):
+    roll, pitch, yaw = rpy = tk.lie.rpy_from_rotation(R)
+    assert abs(pitch) <= np.pi / 2
+    assert max(abs(roll), abs(yaw)) <= np.pi
+    assert_close(tk.lie.rotation_from_rpy(rpy), R, 2 * ATOL)
+    assert_close(Rotation.from_euler("xyz", rpy).as_matrix(), R, 2 * ATOL)
+
+
+@pytest.mark.parametrize("distance", [0.0, 1e-17, 1e-15, 1e-13, 1e-10, 1e-8, 1e-4, 0.3])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("roll", [0.0, 0.7, np.pi / 2, -3.0])
+def test_roll_pitch_yaw_near_a_pitch_of_a_quarter_turn(roll: float, sign: float, distance: float):
+    """Roll may lose its digits there; the three together do not."""
+    pitch = sign * (np.pi / 2 - distance)
+    R = Rotation.from_euler("xyz", (roll, pitch, 1.1)).as_matrix()
+    rpy = tk.lie.rpy_from_rotation(R)
+    lost = 8e-15 if distance < 1e-14 else 0.0  # the cosine of the pitch, where roll is set to 0
+    assert_close(tk.lie.rotation_from_rpy(rpy), R, ATOL + lost)
+    assert_close(rpy[1], pitch, ATOL + 1.0001 * lost)
+    if distance < 1e-15:
+        assert rpy[0] == 0.0
+        assert_close(np.cos(rpy[2] - (1.1 - sign * roll)), 1.0, ATOL)
+    elif distance >= 1e-10:
+        assert_close(rpy, [roll, pitch, 1.1], 1e-15 / distance)
+
+
+@pytest.mark.parametrize("zero", [0.0, -0.0])
+def test_half_turns_about_x_and_z_are_pi(zero: float):
+    about_x = [[1, zero, zero], [zero, -1, zero], [zero, zero, -1]]
+    about_z = [[-1, zero, zero], [zero, -1, zero], [zero, zero, 1]]
+    assert_array_equal(tk.lie.rpy_from_rotation(about_x), [np.pi, 0, 0])
+    assert_array_equal(tk.lie.rpy_from_rotation(about_z), [0, 0, np.pi])
+
+
+def test_roll_pitch_yaw_in_a_batch():
+    R = Rotation.random(8, rng=2).as_matrix()
+    rpy = tk.lie.rpy_from_rotation(R)
+    assert_array_equal(rpy, [tk.lie.rpy_from_rotation(r) for r in R])
+    assert_array_equal(
+        tk.lie.rotation_from_rpy(rpy), [tk.transform(rpy=angles)[:3, :3] for angles in rpy]
+    )

@@ -1,8 +1,7 @@
 #include "thing_kin/kinematics/hessian.hpp"
 
 #include "bindings.hpp"
-#include "map.hpp"
-#include "model/chain.hpp"
+#include "kinematics/motion.hpp"
 
 namespace thing_kin::python {
 
@@ -10,16 +9,16 @@ void bind_hessian(ChainClass& chain) {
   chain.def(
       "hessian",
       [](const Chain& c, const ArrayLike& q, const std::string& frame, const FrameLike& of,
-         const OutArray& out, const ThreadCount& threads) {
+         const PointLike& point, const OutArray& out, const ThreadCount& threads) {
         const ReferenceFrame reference = reference_frame_from_string(frame);
-        const int index = read_frame(c, of, "of");
+        const MovingPoint moving = read_point(c, of, point);
         const int n = c.dof();
         return map(read_vectors(q, "q", n), {6, n, n}, {out, threads},
                    [&](const double* in, double* to) {
                      Posture posture;
                      Hessian H;
                      place_joints(c, in, posture);
-                     geometric_hessian(c, posture, index, reference, H);
+                     geometric_hessian(c, posture, moving, reference, H);
                      for (int row = 0; row < 6; ++row) {
                        for (int i = 0; i < n; ++i) {
                          for (int k = 0; k < n; ++k) {
@@ -29,14 +28,15 @@ void bind_hessian(ChainClass& chain) {
                      }
                    });
       },
-      py::arg("q"), py::arg("frame") = "world_aligned", py::arg("of") = py::none(), py::kw_only(),
-      py::arg("out") = py::none(), py::arg("threads") = py::none(),
+      py::arg("q"), py::arg("frame") = "world_aligned", py::arg("of") = py::none(),
+      py::arg("point") = py::none(), py::kw_only(), py::arg("out") = py::none(),
+      py::arg("threads") = py::none(),
       R"(Exact derivative of the Jacobian: H[:, :, k] = dJ/dq_k.
 
 Parameters
 ----------
 q : (n,) or (N, n), rad and m
-frame, of
+frame, of, point
     As for jacobian.
 out : (6, n, n) or (N, 6, n, n) float64 array in C order, optional
     Where the result goes, and what is returned then.
@@ -50,7 +50,7 @@ Returns
 Raises
 ------
 ValueError
-    If q has a wrong shape or is not finite, or there is no such frame.
+    If q or point has a wrong shape or is not finite, or there is no such frame.
 
 Examples
 --------

@@ -1,60 +1,84 @@
 #include "thing_kin/kinematics/jacobian.hpp"
 
 #include "bindings.hpp"
-#include "map.hpp"
-#include "model/chain.hpp"
+#include "kinematics/motion.hpp"
 #include "thing_kin/kinematics/batch.hpp"
 
 namespace thing_kin::python {
 
 namespace {
 
-// Jacobians, and poses unless T is null.
-void compute(const Chain& c, const Batch& batch, int of, ReferenceFrame reference, int threads,
-             double* T, double* J) {
+Jacobian jacobian_at(const Chain& c, const double* q, const MovingPoint& of,
+                     ReferenceFrame reference, Posture& posture) {
+  Jacobian J;
+  place_joints(c, q, posture);
+  geometric_jacobian(c, posture, of, reference, J);
+  return J;
+}
+
+JointBatch rows_of(const Batch& batch, int threads) {
+  return {batch.data, static_cast<std::size_t>(batch.count), threads};
+}
+
+Array jacobian(const Chain& c, const ArrayLike& q, const std::string& frame, const FrameLike& of,
+               const PointLike& point, const OutArray& out, const ThreadCount& threads) {
+  const ReferenceFrame reference = reference_frame_from_string(frame);
+  const MovingPoint moving = read_point(c, of, point);
+  Batch batch = read_vectors(q, "q", c.dof());
+  const int count = read_threads(threads);
+  Array J = make_output(batch, {6, c.dof()}, out);
+  double* to = J.mutable_data();
   if (batch.single) {
     Posture posture;
-    Jacobian columns;
-    place_joints(c, batch.data, posture);
-    geometric_jacobian(c, posture, of, reference, columns);
-    write_matrix(columns, J);
-    if (T != nullptr) {
-      write_pose(frame_pose(c, posture, of), T);
-    }
-    return;
+    write_matrix(jacobian_at(c, batch.data, moving, reference, posture), to);
+    return J;
   }
+  detach(batch, J);
   const py::gil_scoped_release release;
-  geometric_jacobian(c, {batch.data, static_cast<std::size_t>(batch.count), threads}, of, reference,
-                     T, J);
+  geometric_jacobian(c, rows_of(batch, count), moving, reference, to);
+  return J;
+}
+
+py::typing::Tuple<Array, Array> fk_and_jacobian(const Chain& c, const ArrayLike& q,
+                                                const std::string& frame, const FrameLike& of,
+                                                const ThreadCount& threads) {
+  const ReferenceFrame reference = reference_frame_from_string(frame);
+  const int index = read_frame(c, of, "of");
+  const Batch batch = read_vectors(q, "q", c.dof());
+  const int count = read_threads(threads);
+  Array T = make_array(batch, {4, 4});
+  Array J = make_array(batch, {6, c.dof()});
+  double* const T_out = T.mutable_data();
+  double* const J_out = J.mutable_data();
+  if (batch.single) {
+    Posture posture;
+    write_matrix(jacobian_at(c, batch.data, index, reference, posture), J_out);
+    write_pose(frame_pose(c, posture, index), T_out);
+  } else {
+    const py::gil_scoped_release release;
+    forward_kinematics_and_jacobian(c, rows_of(batch, count), index, reference, T_out, J_out);
+  }
+  return py::make_tuple(T, J);
 }
 
 }  // namespace
 
 void bind_jacobian(ChainClass& chain) {
-  chain.def(
-      "jacobian",
-      [](const Chain& c, const ArrayLike& q, const std::string& frame, const FrameLike& of,
-         const OutArray& out, const ThreadCount& threads) {
-        const ReferenceFrame reference = reference_frame_from_string(frame);
-        const int index = read_frame(c, of, "of");
-        Batch batch = read_vectors(q, "q", c.dof());
-        const int count = read_threads(threads);
-        Array J = make_output(batch, {6, c.dof()}, out);
-        compute(c, batch, index, reference, count, nullptr, J.mutable_data());
-        return J;
-      },
-      py::arg("q"), py::arg("frame") = "world_aligned", py::arg("of") = py::none(), py::kw_only(),
-      py::arg("out") = py::none(), py::arg("threads") = py::none(),
-      R"(Geometric Jacobian, [M17] (3.12)-(3.15): [linear; angular] velocity = J qd.
+  chain.def("jacobian", jacobian, py::arg("q"), py::arg("frame") = "world_aligned",
+            py::arg("of") = py::none(), py::arg("point") = py::none(), py::kw_only(),
+            py::arg("out") = py::none(), py::arg("threads") = py::none(),
+            R"(Geometric Jacobian, [M17] (3.12)-(3.15): [linear; angular] velocity = J qd.
 
 Parameters
 ----------
 q : (n,) or (N, n), rad and m
 frame : str
-    'world_aligned': velocity of the frame's origin, axes of the world. 'body': the same, axes of
-    the frame. 'world': spatial twist, at the world's origin.
+    'world_aligned': velocity of the point, axes of the world. 'body': the same, axes of the frame
+    `of`. 'world': spatial twist, at the world's origin, whatever the point.
 of : str or int, optional
     The frame that moves, from `frames`; default: the last, the tool.
+point : (3,), m, optional
+    A point fixed to that frame, by its coordinates in it; default: its origin.
 out : (6, n) or (N, 6, n) float64 array in C order, optional
     Where the result goes, and what is returned then.
 threads : int, optional
@@ -67,7 +91,7 @@ Returns
 Raises
 ------
 ValueError
-    If q or out has a wrong shape, q is not finite, or there is no such frame.
+    If q, point or out has a wrong shape, q or point is not finite, or there is no such frame.
 
 Examples
 --------
@@ -76,22 +100,9 @@ Examples
 >>> arm.jacobian([0.0])[:, 0]
 array([0., 2., 0., 0., 0., 1.])
 )");
-  chain.def(
-      "fk_and_jacobian",
-      [](const Chain& c, const ArrayLike& q, const std::string& frame, const FrameLike& of,
-         const ThreadCount& threads) {
-        const ReferenceFrame reference = reference_frame_from_string(frame);
-        const int index = read_frame(c, of, "of");
-        const Batch batch = read_vectors(q, "q", c.dof());
-        const int count = read_threads(threads);
-        Array T = make_array(batch, {4, 4});
-        Array J = make_array(batch, {6, c.dof()});
-        compute(c, batch, index, reference, count, T.mutable_data(), J.mutable_data());
-        return py::typing::Tuple<Array, Array>(py::make_tuple(T, J));
-      },
-      py::arg("q"), py::arg("frame") = "world_aligned", py::arg("of") = py::none(), py::kw_only(),
-      py::arg("threads") = py::none(),
-      R"(Pose and Jacobian of a frame, for little more than the price of one.
+  chain.def("fk_and_jacobian", fk_and_jacobian, py::arg("q"), py::arg("frame") = "world_aligned",
+            py::arg("of") = py::none(), py::kw_only(), py::arg("threads") = py::none(),
+            R"(Pose and Jacobian of a frame, for little more than the price of one.
 
 Parameters
 ----------

@@ -22,6 +22,7 @@ Array poses(const Chain& c, const ArrayLike& q, int frame, std::initializer_list
     write_one(forward_kinematics(c, batch.data, frame), to);
     return out;
   }
+  detach(batch, out);
   const py::gil_scoped_release release;
   forward_kinematics(c, {batch.data, static_cast<std::size_t>(batch.count), threads}, frame, format,
                      to);
@@ -108,7 +109,7 @@ ValueError
 Examples
 --------
 >>> import numpy as np, thing_kin as tk
->>> tk.robots.thing().fk_quaternion(np.zeros(9), frame="base")
+>>> tk.robots.thing().fk_quaternion(np.zeros(9), frame="base") + 0.0
 array([0., 0., 0., 1., 0., 0., 0.])
 )");
   chain.def(

@@ -56,27 +56,35 @@ array([1. , 2. , 0.5])
 )");
   chain.def(
       "task_vector",
-      [](const Chain& c, const ArrayLike& q, const OutArray& out, const ThreadCount& threads) {
+      [](const Chain& c, const ArrayLike& q, const std::string& orientation, const OutArray& out,
+         const ThreadCount& threads) {
+        const Orientation form = orientation_from_string(orientation);
         check_base(c);
-        return map(
-            read_vectors(q, "q", c.dof()), {10}, {out, threads},
-            [&](const double* in, double* to) { Eigen::Map<TaskVector>{to} = task_vector(c, in); });
+        const Eigen::Index size = 6 + size_of(form);
+        return map(read_vectors(q, "q", c.dof()), {size}, {out, threads},
+                   [&](const double* in, double* to) {
+                     Eigen::Map<Eigen::VectorXd>(to, size) = task_vector(c, in, form);
+                   });
       },
-      py::arg("q"), py::kw_only(), py::arg("out") = py::none(), py::arg("threads") = py::none(),
+      py::arg("q"), py::arg("orientation") = "quaternion", py::kw_only(),
+      py::arg("out") = py::none(), py::arg("threads") = py::none(),
       R"(Task vector [p, quaternion w x y z, x, y, theta], [M17] (3.3)-(3.5).
 
 Parameters
 ----------
 q : (n,) or (N, n), rad and m
-out : (10,) or (N, 10) float64 array in C order, optional
+orientation : str
+    'quaternion': w >= 0. 'rpy': roll, pitch, yaw as in transform, in place of the quaternion (not
+    in the theses); at a pitch of +-pi/2, where only one combination of roll and yaw is determined,
+    roll is 0.
+out : (10,), (9,) or batched float64 array in C order, optional
     Where the result goes, and what is returned then.
 threads : int, optional
     At most so many; default: one, and for large batches all processors. The result is the same.
 
 Returns
 -------
-(10,) or (N, 10)
-    The quaternion has w >= 0.
+(10,) or (N, 10), with 'rpy' (9,) or (N, 9)
 
 Raises
 ------

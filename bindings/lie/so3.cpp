@@ -248,6 +248,59 @@ array([[-1.,  0.,  0.],
        [ 0., -1.,  0.],
        [ 0.,  0.,  1.]])
 )");
+  lie.def(
+      "rpy_from_rotation",
+      [](const ArrayLike& R) {
+        const Batch batch = read(R, "R", {3, 3});
+        check_rotations(batch, "R");
+        return map(batch, {3}, [](const double* in, double* out) {
+          Eigen::Map<Eigen::Vector3d>{out} = rpy_from_rotation(Eigen::Map<const RowMajor3>(in));
+        });
+      },
+      py::arg("R"), R"(Roll, pitch, yaw of a rotation matrix: R = Rz(yaw) Ry(pitch) Rx(roll).
+
+The pitch is in [-pi/2, pi/2]. At either end, where only yaw - roll or yaw + roll is determined,
+roll is 0. The three give R back to rounding everywhere.
+
+Parameters
+----------
+R : (3, 3) or (N, 3, 3)
+
+Returns
+-------
+(3,) or (N, 3), rad
+
+Examples
+--------
+>>> import thing_kin as tk
+>>> tk.lie.rpy_from_rotation(tk.transform(rpy=(0.1, 0.2, 0.3))[:3, :3])
+array([0.1, 0.2, 0.3])
+)");
+  lie.def(
+      "rotation_from_rpy",
+      [](const ArrayLike& rpy) {
+        return map(read(rpy, "rpy", {3}), {3, 3}, [](const double* in, double* out) {
+          write_matrix(rotation_from_rpy(Map3(in)), out);
+        });
+      },
+      py::arg("rpy"), R"(Rotation matrix Rz(yaw) Ry(pitch) Rx(roll), as in URDF.
+
+Parameters
+----------
+rpy : (3,) or (N, 3), rad
+    Roll, pitch, yaw.
+
+Returns
+-------
+(3, 3) or (N, 3, 3)
+
+Examples
+--------
+>>> import numpy as np, thing_kin as tk
+>>> R = tk.lie.rotation_from_rpy([0.1, 0.2, 0.3])
+>>> np.array_equal(R, tk.transform(rpy=(0.1, 0.2, 0.3))[:3, :3])
+True
+)");
 }
 
 }  // namespace thing_kin::python

@@ -1,8 +1,10 @@
-"""Rotations SO(3) and rigid transforms SE(3): exp, log, adjoint, Jacobians, quaternions."""
+"""Rotations SO(3), rigid transforms SE(3): exp, log, adjoint, Jacobians, quaternions, rpy."""
 
 from thing_kin._core.lie import (
     quaternion_from_rotation,
     rotation_from_quaternion,
+    rotation_from_rpy,
+    rpy_from_rotation,
     se3_adjoint,
     se3_exp,
     se3_left_jacobian,
@@ -21,6 +23,8 @@ from thing_kin._core.lie import (
 __all__ = [
     "quaternion_from_rotation",
     "rotation_from_quaternion",
+    "rotation_from_rpy",
+    "rpy_from_rotation",
     "se3_adjoint",
     "se3_exp",
     "se3_left_jacobian",

@@ -8,8 +8,10 @@
 
 #include "random_chain.hpp"
 #include "thing_kin/inverse/task_priority.hpp"
+#include "thing_kin/kinematics/acceleration.hpp"
+#include "thing_kin/kinematics/analytic_jacobian.hpp"
+#include "thing_kin/kinematics/jacobian_dot.hpp"
 #include "thing_kin/kinematics/manipulability.hpp"
-#include "thing_kin/kinematics/task_vector.hpp"
 #include "thing_kin/linalg/null_space.hpp"
 #include "thing_kin/linalg/pseudoinverse.hpp"
 #include "thing_kin/model/robots.hpp"
@@ -74,6 +76,37 @@ TEST(NoHeap, Kinematics) {
               task_vector(robot, q.data());
             }),
             0);
+}
+
+TEST(NoHeap, DifferentialKinematics) {
+  const Chain robot = robots::thing();
+  test::Generator rng(4);
+  const Eigen::VectorXd q = test::random_vector(rng, robot.dof());
+  const Eigen::VectorXd qd = test::random_vector(rng, robot.dof());
+  const Eigen::VectorXd qdd = test::random_vector(rng, robot.dof());
+  const MovingPoint of(robot.tool(), Eigen::Vector3d(0.1, 0.2, 0.3));
+  Vector6 sum = Vector6::Zero();
+  EXPECT_EQ(allocations_in([&] {
+              Posture posture;
+              Jacobian dJ;
+              AnalyticJacobian A;
+              place_joints(robot, q.data(), posture);
+              for (const auto reference :
+                   {ReferenceFrame::kWorldAligned, ReferenceFrame::kBody, ReferenceFrame::kWorld}) {
+                geometric_jacobian_dot(robot, posture, of, reference, qd.data(), dJ);
+                sum += frame_velocity(robot, posture, of, reference, qd.data());
+                sum += frame_drift(robot, posture, of, reference, qd.data());
+                sum += frame_acceleration(robot, posture, of, reference, AccelerationKind::kSpatial,
+                                          qd.data(), qdd.data());
+              }
+              for (const auto orientation : {Orientation::kQuaternion, Orientation::kRpy}) {
+                task_vector(robot, q.data(), orientation);
+                EXPECT_TRUE(analytic_jacobian(robot, posture, of, orientation, A));
+                EXPECT_TRUE(task_jacobian(robot, posture, orientation, A));
+              }
+            }),
+            0);
+  EXPECT_TRUE(sum.allFinite());
 }
 
 TEST(NoHeap, LinearAlgebra) {

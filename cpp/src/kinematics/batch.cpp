@@ -1,6 +1,6 @@
 #include "thing_kin/kinematics/batch.hpp"
 
-#include "kernels/reference.hpp"
+#include "kernels/arguments.hpp"
 #include "thing_kin/core/parallel.hpp"
 
 namespace thing_kin {
@@ -34,13 +34,22 @@ void forward_kinematics(const Chain& chain, const JointBatch& batch, int frame, 
   });
 }
 
-void geometric_jacobian(const Chain& chain, const JointBatch& batch, int frame,
-                        ReferenceFrame reference, double* T, double* J) {
+void geometric_jacobian(const Chain& chain, const JointBatch& batch, const MovingPoint& of,
+                        ReferenceFrame reference, double* J) {
+  const Kernels& run = kernels();
+  const SkeletonFrame frame = skeleton_frame_at(chain, of);
+  in_ranges(batch, [&](std::size_t first, long count) {
+    run.jacobians(chain.skeleton(), frame, batch.q + first * dof(chain), count,
+                  to_kernel(reference), nullptr, J + 6 * dof(chain) * first);
+  });
+}
+
+void forward_kinematics_and_jacobian(const Chain& chain, const JointBatch& batch, int frame,
+                                     ReferenceFrame reference, double* T, double* J) {
   const Kernels& run = kernels();
   in_ranges(batch, [&](std::size_t first, long count) {
     run.jacobians(chain.skeleton(), chain.skeleton_frame(frame), batch.q + first * dof(chain),
-                  count, to_kernel(reference), T == nullptr ? nullptr : T + 16 * first,
-                  J + 6 * dof(chain) * first);
+                  count, to_kernel(reference), T + 16 * first, J + 6 * dof(chain) * first);
   });
 }
 

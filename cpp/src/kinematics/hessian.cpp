@@ -28,12 +28,6 @@ Column world_aligned(const Column& Ji, const Column& Jk, bool k_first) {
   return stack(angular(Ji).cross(linear(Jk)), Eigen::Vector3d::Zero());
 }
 
-// The Lie bracket of two twists.
-Column bracket(const Column& a, const Column& b) {
-  return stack(angular(a).cross(linear(b)) + linear(a).cross(angular(b)),
-               angular(a).cross(angular(b)));
-}
-
 // dJ_i/dq_k is [J_k, J_i] for k inside i in the spatial frame, [J_i, J_k] for k outside i in the
 // body frame, and zero else.
 Column derivative(ReferenceFrame reference, const Column& Ji, const Column& Jk, bool k_first) {
@@ -41,19 +35,19 @@ Column derivative(ReferenceFrame reference, const Column& Ji, const Column& Jk, 
     case ReferenceFrame::kWorldAligned:
       return world_aligned(Ji, Jk, k_first);
     case ReferenceFrame::kWorld:
-      return k_first ? bracket(Jk, Ji) : Column::Zero();
+      return k_first ? se3_bracket(Jk, Ji) : Column::Zero();
     case ReferenceFrame::kBody:
       break;
   }
-  return k_first ? Column::Zero() : bracket(Ji, Jk);
+  return k_first ? Column::Zero() : se3_bracket(Ji, Jk);
 }
 
 }  // namespace
 
-void geometric_hessian(const Chain& chain, const Posture& posture, int frame,
+void geometric_hessian(const Chain& chain, const Posture& posture, const MovingPoint& of,
                        ReferenceFrame reference, Hessian& H) noexcept {
   Jacobian J;
-  geometric_jacobian(chain, posture, frame, reference, J);
+  geometric_jacobian(chain, posture, of, reference, J);
   const auto joints = chain.joints();
   const std::size_t n = joints.size();
   for (std::size_t k = 0; k < n; ++k) {

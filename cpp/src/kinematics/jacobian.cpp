@@ -1,6 +1,6 @@
 #include "thing_kin/kinematics/jacobian.hpp"
 
-#include "kernels/reference.hpp"
+#include "kernels/arguments.hpp"
 #include "thing_kin/core/error.hpp"
 
 namespace thing_kin {
@@ -18,10 +18,10 @@ ReferenceFrame reference_frame_from_string(const std::string& name) {
   throw InvalidArgument("frame", quoted(name), "'world_aligned', 'body' or 'world'");
 }
 
-void geometric_jacobian(const Chain& chain, const Posture& posture, int frame,
+void geometric_jacobian(const Chain& chain, const Posture& posture, const MovingPoint& of,
                         ReferenceFrame reference, Jacobian& J) noexcept {
   J.resize(6, chain.dof());
-  kernels().jacobian(chain.skeleton(), chain.skeleton_frame(frame), posture.columns,
+  kernels().jacobian(chain.skeleton(), skeleton_frame_at(chain, of), posture.columns,
                      to_kernel(reference), J.data());
 }
 

@@ -11,9 +11,9 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 }
 
-Dexterity::Dexterity(const Chain& chain, const Posture& posture, int frame) noexcept {
+Dexterity::Dexterity(const Chain& chain, const Posture& posture, const MovingPoint& of) noexcept {
   Jacobian J;
-  geometric_jacobian(chain, posture, frame, ReferenceFrame::kWorldAligned, J);
+  geometric_jacobian(chain, posture, of, ReferenceFrame::kWorldAligned, J);
   decompose(J, svd_);
 }
 

@@ -111,4 +111,15 @@ Eigen::Matrix3d rotation_from_rpy(const Eigen::Vector3d& rpy) {
   return R;
 }
 
+Eigen::Vector3d rpy_from_rotation(const Eigen::Matrix3d& R) {
+  const double cp = std::hypot(R(2, 1), R(2, 2));
+  // Adding zero makes -0 a 0, so that half a turn is pi and not -pi.
+  const double roll = cp <= kGimbalLockTolerance ? 0.0 : std::atan2(R(2, 1) + 0.0, R(2, 2));
+  const double pitch = std::atan2(-R(2, 0), cp);
+  // The second column of R Rx(-roll) = Rz(yaw) Ry(pitch) is (-sin(yaw), cos(yaw), 0): near
+  // |pitch| = pi/2, where roll has few digits, yaw makes up for them.
+  const Eigen::Vector3d y = std::cos(roll) * R.col(1) - std::sin(roll) * R.col(2);
+  return {roll, pitch, std::atan2(0.0 - y[0], y[1])};
+}
+
 }  // namespace thing_kin

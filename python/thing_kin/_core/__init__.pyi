@@ -8,7 +8,7 @@ import numpy.typing
 import typing
 from . import lie
 from . import robots
-__all__: list[str] = ['BaseTask', 'Chain', 'DH', 'Damped', 'Exact', 'MAX_DOF', 'OrientationTask', 'PoseTask', 'PositionTask', 'PostureTask', 'SelectivelyDamped', 'SingularValueFilter', 'Task', 'TaskPriority', 'TaskPriorityStep', 'filter_singular_values', 'lie', 'null_space', 'null_space_projector', 'on_omni_base', 'pinv', 'pose_error', 'robots', 'selectively_damped_step', 'transform']
+__all__: list[str] = ['BaseTask', 'Chain', 'DH', 'Damped', 'Exact', 'MAX_DOF', 'OrientationTask', 'PoseTask', 'PositionTask', 'PostureTask', 'SelectivelyDamped', 'SingularValueFilter', 'Task', 'TaskPriority', 'TaskPriorityStep', 'filter_singular_values', 'lie', 'null_space', 'null_space_projector', 'on_omni_base', 'pinv', 'pose_error', 'robots', 'selectively_damped_step', 'simd_level', 'transform', 'use_simd_level']
 class SingularValueFilter:
     """
     Lifts small singular values to at least sigma0, [M17] (4.12).
@@ -208,13 +208,106 @@ class Chain:
         ...
     def __str__(self) -> str:
         ...
-    def base_pose(self, q: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
+    def acceleration(self, q: numpy.typing.ArrayLike, qd: numpy.typing.ArrayLike, qdd: numpy.typing.ArrayLike, frame: str = 'world_aligned', of: str | int | None = None, kind: str = 'classical', point: numpy.typing.ArrayLike | None = None, *, out: numpy.typing.NDArray[numpy.float64] | None = None, threads: typing.SupportsIndex | None = None) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Acceleration of a frame, or of a point fixed to it, [linear, angular].
+        
+        'classical', the default, is what an accelerometer at the point feels besides gravity: the second
+        derivative of its position. 'spatial' is the derivative of the twist, which rigid-body dynamics
+        transforms like a twist. Their angular parts are equal, and with the velocity [v, w] in the same
+        frame the linear parts are: classical = spatial + w x v.
+        
+        The derivative of J qd, jacobian(q) @ qdd + drift(q, qd), is the classical one in 'world_aligned'
+        and the spatial one in 'body' and 'world'.
+        
+        Parameters
+        ----------
+        q : (n,) or (N, n), rad and m
+        qd : (n,) or (N, n), rad/s and m/s
+        qdd : (n,) or (N, n), rad/s^2 and m/s^2
+            A single vector, here, in q or in qd, goes with every item of a batch.
+        frame : str
+            'world_aligned': of the point, axes of the world. 'body': the same, axes of the frame. 'world':
+            of the point of the moving body that is now at the world's origin.
+        of, point
+            As for jacobian.
+        kind : str
+            'classical' or 'spatial'.
+        out : (6,) or (N, 6) float64 array in C order, optional
+            Where the result goes, and what is returned then.
+        threads : int, optional
+            At most so many; default: one, and for large batches all processors. The result is the same.
+        
+        Returns
+        -------
+        (6,) or (N, 6), m/s^2 and rad/s^2
+        
+        Raises
+        ------
+        ValueError
+            If q, qd, qdd or point has a wrong shape, is not finite or beyond 1e50, or there is no such
+            frame or kind.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> arm = tk.Chain.from_dh([tk.DH(a=2.0, joint="revolute")])
+        >>> arm.acceleration([0.0], [3.0], [0.5])
+        array([-18. ,   1. ,   0. ,   0. ,   0. ,   0.5])
+        >>> arm.acceleration([0.0], [3.0], [0.5], kind="spatial")
+        array([0. , 1. , 0. , 0. , 0. , 0.5])
+        """
+    def analytic_jacobian(self, q: numpy.typing.ArrayLike, orientation: str = 'quaternion', of: str | int | None = None, point: numpy.typing.ArrayLike | None = None, *, out: numpy.typing.NDArray[numpy.float64] | None = None, threads: typing.SupportsIndex | None = None) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Derivative of position and orientation in coordinates: d[p, orientation]/dq.
+        
+        The geometric Jacobian's angular rows are a velocity, the derivative of no coordinates; these are
+        derivatives of numbers, [M17] (3.9) of (3.3), as (3.10) and (3.11) need them.
+        
+        Parameters
+        ----------
+        q : (n,) or (N, n), rad and m
+        orientation : str
+            'quaternion': (w, x, y, z) with w >= 0, as in task_vector. At w = 0, where it jumps to its
+            opposite, the derivative is that of the branch taken. 'rpy': roll, pitch, yaw as in transform.
+        of, point
+            As for jacobian; p is the position of the point.
+        out : (7, n), (6, n) or batched float64 array in C order, optional
+            Where the result goes, and what is returned then.
+        threads : int, optional
+            At most so many; default: one, and for large batches all processors. The result is the same.
+        
+        Returns
+        -------
+        (7, n) or (6, n), or a batch (N, 7, n) or (N, 6, n)
+        
+        Raises
+        ------
+        ValueError
+            With 'rpy' at a pitch within 1e-9 rad of +-pi/2, where roll and yaw have no rates: which, and
+            in which item of a batch (what `out` holds is undefined then). If q or point has a wrong shape or is not finite, or there is no such
+            frame.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> arm = tk.Chain.from_dh([tk.DH(a=2.0, joint="revolute")])
+        >>> arm.analytic_jacobian([0.0])[:, 0] + 0.0
+        array([0. , 2. , 0. , 0. , 0. , 0. , 0.5])
+        >>> arm.analytic_jacobian([0.0], orientation="rpy")[:, 0]
+        array([0., 2., 0., 0., 0., 1.])
+        """
+    def base_pose(self, q: numpy.typing.ArrayLike, *, out: numpy.typing.NDArray[numpy.float64] | None = None, threads: typing.SupportsIndex | None = None) -> numpy.typing.NDArray[numpy.float64]:
         """
         Planar pose of the base (x, y, theta), as it stands in q, [M17] (3.4).
         
         Parameters
         ----------
         q : (n,) or (N, n), rad and m
+        out : (3,) or (N, 3) float64 array in C order, optional
+            Where the result goes, and what is returned then.
+        threads : int, optional
+            At most so many; default: one, and for large batches all processors. The result is the same.
         
         Returns
         -------
@@ -232,7 +325,7 @@ class Chain:
         >>> tk.robots.thing().base_pose([0, 0, 0, 0, 0, 0, 1.0, 2.0, 0.5])
         array([1. , 2. , 0.5])
         """
-    def condition_number(self, q: numpy.typing.ArrayLike, of: typing.Any = None) -> float | numpy.typing.NDArray[numpy.float64]:
+    def condition_number(self, q: numpy.typing.ArrayLike, of: str | int | None = None, *, out: numpy.typing.NDArray[numpy.float64] | None = None, threads: typing.SupportsIndex | None = None) -> float | numpy.typing.NDArray[numpy.float64]:
         """
         Condition number kappa = sigma_max/sigma_min of the Jacobian, [M17] (4.32).
         
@@ -241,6 +334,10 @@ class Chain:
         q : (n,) or (N, n), rad and m
         of : str or int, optional
             The frame that moves; default: the tool.
+        out : () or (N,) float64 array in C order, optional
+            Where the result goes, and what is returned then.
+        threads : int, optional
+            At most so many; default: one, and for large batches all processors. The result is the same.
         
         Returns
         -------
@@ -255,7 +352,7 @@ class Chain:
         >>> bool(np.isclose(robot.condition_number(q), np.linalg.cond(robot.jacobian(q))))
         True
         """
-    def condition_number_gradient(self, q: numpy.typing.ArrayLike, of: typing.Any = None) -> numpy.typing.NDArray[numpy.float64]:
+    def condition_number_gradient(self, q: numpy.typing.ArrayLike, of: str | int | None = None, *, out: numpy.typing.NDArray[numpy.float64] | None = None, threads: typing.SupportsIndex | None = None) -> numpy.typing.NDArray[numpy.float64]:
         """
         Gradient of the condition number (4.32).
         
@@ -264,6 +361,10 @@ class Chain:
         q : (n,) or (N, n), rad and m
         of : str or int, optional
             The frame that moves; default: the tool.
+        out : (n,) or (N, n) float64 array in C order, optional
+            Where the result goes, and what is returned then.
+        threads : int, optional
+            At most so many; default: one, and for large batches all processors. The result is the same.
         
         Returns
         -------
@@ -273,6 +374,7 @@ class Chain:
         ------
         ValueError
             Where the largest or smallest singular value is repeated or zero: no gradient exists there.
+            What `out` holds is undefined then.
         
         Examples
         --------
@@ -280,7 +382,7 @@ class Chain:
         >>> tk.robots.thing().condition_number_gradient([0, -1, 1, 0, 1, 0, 0, 0, 0]).shape
         (9,)
         """
-    def dexterity(self, q: numpy.typing.ArrayLike, of: typing.Any = None) -> float | numpy.typing.NDArray[numpy.float64]:
+    def dexterity(self, q: numpy.typing.ArrayLike, of: str | int | None = None, *, out: numpy.typing.NDArray[numpy.float64] | None = None, threads: typing.SupportsIndex | None = None) -> float | numpy.typing.NDArray[numpy.float64]:
         """
         The combined measure sqrt(kappa/M), [M17] (4.33): small is good.
         
@@ -289,6 +391,10 @@ class Chain:
         q : (n,) or (N, n), rad and m
         of : str or int, optional
             The frame that moves; default: the tool.
+        out : () or (N,) float64 array in C order, optional
+            Where the result goes, and what is returned then.
+        threads : int, optional
+            At most so many; default: one, and for large batches all processors. The result is the same.
         
         Returns
         -------
@@ -304,7 +410,7 @@ class Chain:
         >>> bool(np.isclose(robot.dexterity(q), f))
         True
         """
-    def dexterity_gradient(self, q: numpy.typing.ArrayLike, of: typing.Any = None) -> numpy.typing.NDArray[numpy.float64]:
+    def dexterity_gradient(self, q: numpy.typing.ArrayLike, of: str | int | None = None, *, out: numpy.typing.NDArray[numpy.float64] | None = None, threads: typing.SupportsIndex | None = None) -> numpy.typing.NDArray[numpy.float64]:
         """
         Gradient of sqrt(kappa/M), [M17] (4.33).
         
@@ -313,6 +419,10 @@ class Chain:
         q : (n,) or (N, n), rad and m
         of : str or int, optional
             The frame that moves; default: the tool.
+        out : (n,) or (N, n) float64 array in C order, optional
+            Where the result goes, and what is returned then.
+        threads : int, optional
+            At most so many; default: one, and for large batches all processors. The result is the same.
         
         Returns
         -------
@@ -322,6 +432,7 @@ class Chain:
         ------
         ValueError
             Where the largest or smallest singular value is repeated or zero: no gradient exists there.
+            What `out` holds is undefined then.
         
         Examples
         --------
@@ -329,7 +440,44 @@ class Chain:
         >>> tk.robots.thing().dexterity_gradient([0, -1, 1, 0, 1, 0, 0, 0, 0]).shape
         (9,)
         """
-    def fk(self, q: numpy.typing.ArrayLike, frame: typing.Any = None) -> numpy.typing.NDArray[numpy.float64]:
+    def drift(self, q: numpy.typing.ArrayLike, qd: numpy.typing.ArrayLike, frame: str = 'world_aligned', of: str | int | None = None, point: numpy.typing.ArrayLike | None = None, *, out: numpy.typing.NDArray[numpy.float64] | None = None, threads: typing.SupportsIndex | None = None) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        The drift dJ/dt qd: the acceleration that is there without any qdd.
+        
+        J qdd + drift is the derivative of J qd, so that qdd = J^+ (a - drift) is what an acceleration a
+        asks of the joints. It is jacobian_dot(q, qd) @ qd, without that matrix.
+        
+        Parameters
+        ----------
+        q : (n,) or (N, n), rad and m
+        qd : (n,) or (N, n), rad/s and m/s
+            A single vector, here or in q, goes with every item of a batch.
+        frame, of, point
+            As for jacobian.
+        out : (6,) or (N, 6) float64 array in C order, optional
+            Where the result goes, and what is returned then.
+        threads : int, optional
+            At most so many; default: one, and for large batches all processors. The result is the same.
+        
+        Returns
+        -------
+        (6,) or (N, 6), m/s^2 and rad/s^2
+            [linear, angular]. With 'world_aligned' its linear part is a classical acceleration, else a
+            spatial one (see acceleration).
+        
+        Raises
+        ------
+        ValueError
+            If q, qd or point has a wrong shape, is not finite or beyond 1e50, or there is no such frame.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> arm = tk.Chain.from_dh([tk.DH(a=2.0, joint="revolute")])
+        >>> arm.drift([0.0], [3.0])  # centripetal
+        array([-18.,   0.,   0.,   0.,   0.,   0.])
+        """
+    def fk(self, q: numpy.typing.ArrayLike, frame: str | int | None = None, *, out: numpy.typing.NDArray[numpy.float64] | None = None, threads: typing.SupportsIndex | None = None) -> numpy.typing.NDArray[numpy.float64]:
         """
         Forward kinematics: pose of a frame, [M17] (3.8).
         
@@ -338,6 +486,10 @@ class Chain:
         q : (n,) or (N, n), rad and m
         frame : str or int, optional
             Name (or index) from `frames`; default: the last, the tool.
+        out : (4, 4) or (N, 4, 4) float64 array in C order, optional
+            Where the result goes, and what is returned then.
+        threads : int, optional
+            At most so many; default: one, and for large batches all processors. The result is the same.
         
         Returns
         -------
@@ -347,7 +499,7 @@ class Chain:
         Raises
         ------
         ValueError
-            If q has a wrong shape or is not finite, or there is no such frame.
+            If q or out has a wrong shape, q is not finite, or there is no such frame.
         
         Examples
         --------
@@ -355,17 +507,26 @@ class Chain:
         >>> tk.robots.thing().fk(np.zeros(9), frame="mount")[:3, 3]
         array([0.27 , 0.01 , 0.653])
         """
-    def fk_all(self, q: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
+    def fk_all(self, q: numpy.typing.ArrayLike, *, out: numpy.typing.NDArray[numpy.float64] | None = None, threads: typing.SupportsIndex | None = None) -> numpy.typing.NDArray[numpy.float64]:
         """
         Poses of all frames, in the order of `frames`.
         
         Parameters
         ----------
         q : (n,) or (N, n), rad and m
+        out : (F, 4, 4) or (N, F, 4, 4) float64 array in C order, optional
+            Where the result goes, and what is returned then.
+        threads : int, optional
+            At most so many; default: one, and for large batches all processors. The result is the same.
         
         Returns
         -------
         (F, 4, 4) or (N, F, 4, 4)
+        
+        Raises
+        ------
+        ValueError
+            If q or out has a wrong shape or q is not finite.
         
         Examples
         --------
@@ -374,15 +535,81 @@ class Chain:
         >>> robot.fk_all(np.zeros(6)).shape == (len(robot.frames), 4, 4)
         True
         """
-    def hessian(self, q: numpy.typing.ArrayLike, frame: str = 'world_aligned', of: typing.Any = None) -> numpy.typing.NDArray[numpy.float64]:
+    def fk_and_jacobian(self, q: numpy.typing.ArrayLike, frame: str = 'world_aligned', of: str | int | None = None, *, threads: typing.SupportsIndex | None = None) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
+        """
+        Pose and Jacobian of a frame, for little more than the price of one.
+        
+        Parameters
+        ----------
+        q : (n,) or (N, n), rad and m
+        frame : str
+            As in jacobian: 'world_aligned', 'body' or 'world'.
+        of : str or int, optional
+            The frame, from `frames`; default: the last, the tool.
+        threads : int, optional
+            At most so many; default: one, and for large batches all processors. The result is the same.
+        
+        Returns
+        -------
+        T : (4, 4) or (N, 4, 4)
+        J : (6, n) or (N, 6, n)
+        
+        Raises
+        ------
+        ValueError
+            If q has a wrong shape or is not finite, or there is no such frame.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> T, J = tk.robots.ur5().fk_and_jacobian([0.0, -1.0, 1.0, 0.0, 1.0, 0.0])
+        >>> T.shape, J.shape
+        ((4, 4), (6, 6))
+        """
+    def fk_quaternion(self, q: numpy.typing.ArrayLike, frame: str | int | None = None, *, out: numpy.typing.NDArray[numpy.float64] | None = None, threads: typing.SupportsIndex | None = None) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Forward kinematics as position and quaternion: less than half the memory of a matrix.
+        
+        Parameters
+        ----------
+        q : (n,) or (N, n), rad and m
+        frame : str or int, optional
+            Name (or index) from `frames`; default: the last, the tool.
+        out : (7,) or (N, 7) float64 array in C order, optional
+            Where the result goes, and what is returned then.
+        threads : int, optional
+            At most so many; default: one, and for large batches all processors. The result is the same.
+        
+        Returns
+        -------
+        (7,) or (N, 7)
+            [x, y, z, qw, qx, qy, qz] in the root, m; unit quaternion with qw >= 0. The first seven numbers
+            of task_vector, [M17] (3.3), (3.5).
+        
+        Raises
+        ------
+        ValueError
+            If q or out has a wrong shape, q is not finite, or there is no such frame.
+        
+        Examples
+        --------
+        >>> import numpy as np, thing_kin as tk
+        >>> tk.robots.thing().fk_quaternion(np.zeros(9), frame="base")
+        array([0., 0., 0., 1., 0., 0., 0.])
+        """
+    def hessian(self, q: numpy.typing.ArrayLike, frame: str = 'world_aligned', of: str | int | None = None, point: numpy.typing.ArrayLike | None = None, *, out: numpy.typing.NDArray[numpy.float64] | None = None, threads: typing.SupportsIndex | None = None) -> numpy.typing.NDArray[numpy.float64]:
         """
         Exact derivative of the Jacobian: H[:, :, k] = dJ/dq_k.
         
         Parameters
         ----------
         q : (n,) or (N, n), rad and m
-        frame, of
+        frame, of, point
             As for jacobian.
+        out : (6, n, n) or (N, 6, n, n) float64 array in C order, optional
+            Where the result goes, and what is returned then.
+        threads : int, optional
+            At most so many; default: one, and for large batches all processors. The result is the same.
         
         Returns
         -------
@@ -391,7 +618,7 @@ class Chain:
         Raises
         ------
         ValueError
-            If q has a wrong shape or is not finite, or there is no such frame.
+            If q or point has a wrong shape or is not finite, or there is no such frame.
         
         Examples
         --------
@@ -402,7 +629,7 @@ class Chain:
         >>> np.allclose(robot.hessian(q)[:, :, 2], central, atol=1e-8)
         True
         """
-    def jacobian(self, q: numpy.typing.ArrayLike, frame: str = 'world_aligned', of: typing.Any = None) -> numpy.typing.NDArray[numpy.float64]:
+    def jacobian(self, q: numpy.typing.ArrayLike, frame: str = 'world_aligned', of: str | int | None = None, point: numpy.typing.ArrayLike | None = None, *, out: numpy.typing.NDArray[numpy.float64] | None = None, threads: typing.SupportsIndex | None = None) -> numpy.typing.NDArray[numpy.float64]:
         """
         Geometric Jacobian, [M17] (3.12)-(3.15): [linear; angular] velocity = J qd.
         
@@ -410,10 +637,16 @@ class Chain:
         ----------
         q : (n,) or (N, n), rad and m
         frame : str
-            'world_aligned': velocity of the frame's origin, axes of the world. 'body': the same, axes of
-            the frame. 'world': spatial twist, at the world's origin.
+            'world_aligned': velocity of the point, axes of the world. 'body': the same, axes of the frame
+            `of`. 'world': spatial twist, at the world's origin, whatever the point.
         of : str or int, optional
             The frame that moves, from `frames`; default: the last, the tool.
+        point : (3,), m, optional
+            A point fixed to that frame, by its coordinates in it; default: its origin.
+        out : (6, n) or (N, 6, n) float64 array in C order, optional
+            Where the result goes, and what is returned then.
+        threads : int, optional
+            At most so many; default: one, and for large batches all processors. The result is the same.
         
         Returns
         -------
@@ -422,7 +655,7 @@ class Chain:
         Raises
         ------
         ValueError
-            If q has a wrong shape or is not finite, or there is no such frame.
+            If q, point or out has a wrong shape, q or point is not finite, or there is no such frame.
         
         Examples
         --------
@@ -431,7 +664,41 @@ class Chain:
         >>> arm.jacobian([0.0])[:, 0]
         array([0., 2., 0., 0., 0., 1.])
         """
-    def manipulability(self, q: numpy.typing.ArrayLike, of: typing.Any = None) -> float | numpy.typing.NDArray[numpy.float64]:
+    def jacobian_dot(self, q: numpy.typing.ArrayLike, qd: numpy.typing.ArrayLike, frame: str = 'world_aligned', of: str | int | None = None, point: numpy.typing.ArrayLike | None = None, *, out: numpy.typing.NDArray[numpy.float64] | None = None, threads: typing.SupportsIndex | None = None) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Time derivative of the Jacobian, dJ/dt = sum_k dJ/dq_k qd_k, without the Hessian.
+        
+        It is the derivative of the numbers in `jacobian(q, frame, of, point)`. Not in the theses.
+        
+        Parameters
+        ----------
+        q : (n,) or (N, n), rad and m
+        qd : (n,) or (N, n), rad/s and m/s
+            A single vector, here or in q, goes with every item of a batch.
+        frame, of, point
+            As for jacobian.
+        out : (6, n) or (N, 6, n) float64 array in C order, optional
+            Where the result goes, and what is returned then.
+        threads : int, optional
+            At most so many; default: one, and for large batches all processors. The result is the same.
+        
+        Returns
+        -------
+        (6, n) or (N, 6, n)
+        
+        Raises
+        ------
+        ValueError
+            If q, qd or point has a wrong shape, is not finite or beyond 1e50, or there is no such frame.
+        
+        Examples
+        --------
+        >>> import numpy as np, thing_kin as tk
+        >>> robot, q, qd = tk.robots.ur5(), np.full(6, 0.3), np.linspace(-1.0, 1.0, 6)
+        >>> np.allclose(robot.jacobian_dot(q, qd), robot.hessian(q) @ qd)
+        True
+        """
+    def manipulability(self, q: numpy.typing.ArrayLike, of: str | int | None = None, *, out: numpy.typing.NDArray[numpy.float64] | None = None, threads: typing.SupportsIndex | None = None) -> float | numpy.typing.NDArray[numpy.float64]:
         """
         Manipulability M = sqrt(det(J J^T)), [M17] (4.30).
         
@@ -440,6 +707,10 @@ class Chain:
         q : (n,) or (N, n), rad and m
         of : str or int, optional
             The frame that moves; default: the tool.
+        out : () or (N,) float64 array in C order, optional
+            Where the result goes, and what is returned then.
+        threads : int, optional
+            At most so many; default: one, and for large batches all processors. The result is the same.
         
         Returns
         -------
@@ -455,7 +726,7 @@ class Chain:
         >>> bool(np.isclose(robot.manipulability(q), np.sqrt(np.linalg.det(J @ J.T))))
         True
         """
-    def manipulability_gradient(self, q: numpy.typing.ArrayLike, of: typing.Any = None) -> numpy.typing.NDArray[numpy.float64]:
+    def manipulability_gradient(self, q: numpy.typing.ArrayLike, of: str | int | None = None, *, out: numpy.typing.NDArray[numpy.float64] | None = None, threads: typing.SupportsIndex | None = None) -> numpy.typing.NDArray[numpy.float64]:
         """
         Gradient of the manipulability, [M17] (4.31): (M/2) tr((J J^T)^-1 d(J J^T)/dq).
         
@@ -464,6 +735,10 @@ class Chain:
         q : (n,) or (N, n), rad and m
         of : str or int, optional
             The frame that moves; default: the tool.
+        out : (n,) or (N, n) float64 array in C order, optional
+            Where the result goes, and what is returned then.
+        threads : int, optional
+            At most so many; default: one, and for large batches all processors. The result is the same.
         
         Returns
         -------
@@ -505,18 +780,59 @@ class Chain:
         >>> tk.robots.ur5().random(3, rng=0).shape
         (3, 6)
         """
-    def task_vector(self, q: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
+    def task_jacobian(self, q: numpy.typing.ArrayLike, orientation: str = 'quaternion', *, out: numpy.typing.NDArray[numpy.float64] | None = None, threads: typing.SupportsIndex | None = None) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Derivative ds/dq of the task vector, [M17] (3.9) of (3.5).
+        
+        Parameters
+        ----------
+        q : (n,) or (N, n), rad and m
+        orientation : str
+            'quaternion' or 'rpy', as for task_vector.
+        out : (10, n), (9, n) or batched float64 array in C order, optional
+            Where the result goes, and what is returned then.
+        threads : int, optional
+            At most so many; default: one, and for large batches all processors. The result is the same.
+        
+        Returns
+        -------
+        (10, n) or (9, n), or a batch (N, 10, n) or (N, 9, n)
+        
+        Raises
+        ------
+        ValueError
+            If the robot has no omnidirectional base; with 'rpy' at a pitch within 1e-9 rad of +-pi/2, as
+            for analytic_jacobian.
+        
+        Examples
+        --------
+        >>> import numpy as np, thing_kin as tk
+        >>> robot = tk.robots.thing()
+        >>> q = robot.random(rng=0)
+        >>> step = 1e-6 * np.eye(9)[3]
+        >>> central = (robot.task_vector(q + step) - robot.task_vector(q - step)) / 2e-6
+        >>> np.allclose(robot.task_jacobian(q)[:, 3], central, atol=1e-8)
+        True
+        """
+    def task_vector(self, q: numpy.typing.ArrayLike, orientation: str = 'quaternion', *, out: numpy.typing.NDArray[numpy.float64] | None = None, threads: typing.SupportsIndex | None = None) -> numpy.typing.NDArray[numpy.float64]:
         """
         Task vector [p, quaternion w x y z, x, y, theta], [M17] (3.3)-(3.5).
         
         Parameters
         ----------
         q : (n,) or (N, n), rad and m
+        orientation : str
+            'quaternion': w >= 0. 'rpy': roll, pitch, yaw as in transform, in place of the quaternion (not
+            in the theses); at a pitch of +-pi/2, where only one combination of roll and yaw is determined,
+            roll is 0.
+        out : (10,), (9,) or batched float64 array in C order, optional
+            Where the result goes, and what is returned then.
+        threads : int, optional
+            At most so many; default: one, and for large batches all processors. The result is the same.
         
         Returns
         -------
-        (10,) or (N, 10)
-            The quaternion has w >= 0.
+        (10,) or (N, 10), with 'rpy' (9,) or (N, 9)
         
         Raises
         ------
@@ -528,6 +844,38 @@ class Chain:
         >>> import numpy as np, thing_kin as tk
         >>> tk.robots.thing().task_vector(np.zeros(9)).shape
         (10,)
+        """
+    def velocity(self, q: numpy.typing.ArrayLike, qd: numpy.typing.ArrayLike, frame: str = 'world_aligned', of: str | int | None = None, point: numpy.typing.ArrayLike | None = None, *, out: numpy.typing.NDArray[numpy.float64] | None = None, threads: typing.SupportsIndex | None = None) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Velocity of a frame, or of a point fixed to it: J qd, [linear, angular].
+        
+        Parameters
+        ----------
+        q : (n,) or (N, n), rad and m
+        qd : (n,) or (N, n), rad/s and m/s
+            A single vector, here or in q, goes with every item of a batch.
+        frame, of, point
+            As for jacobian.
+        out : (6,) or (N, 6) float64 array in C order, optional
+            Where the result goes, and what is returned then.
+        threads : int, optional
+            At most so many; default: one, and for large batches all processors. The result is the same.
+        
+        Returns
+        -------
+        (6,) or (N, 6), m/s and rad/s
+        
+        Raises
+        ------
+        ValueError
+            If q, qd or point has a wrong shape, is not finite or beyond 1e50, or there is no such frame.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> arm = tk.Chain.from_dh([tk.DH(a=2.0, joint="revolute")])
+        >>> arm.velocity([0.0], [3.0])
+        array([0., 6., 0., 0., 0., 3.])
         """
     def with_limits(self, *, lower: typing.Any = None, upper: typing.Any = None, velocity_limits: typing.Any = None, acceleration_limits: typing.Any = None) -> Chain:
         """
@@ -1175,6 +1523,18 @@ def selectively_damped_step(J: numpy.typing.ArrayLike, e: numpy.typing.ArrayLike
     >>> tk.selectively_damped_step(nearly_singular, [0.1, 0.1], gamma_max=0.5)
     array([0.1, 0.5])
     """
+def simd_level() -> str:
+    """
+    Which instructions the kinematics use: 'baseline', 'avx2' or 'avx512'.
+    
+    The best of this processor, unless use_simd_level() chose another.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> tk.simd_level() in ("baseline", "avx2", "avx512")
+    True
+    """
 def transform(xyz: numpy.typing.ArrayLike = (0.0, 0.0, 0.0), rpy: typing.Any = None, quaternion: typing.Any = None) -> numpy.typing.NDArray[numpy.float64]:
     """
     Homogeneous matrix of a position and an orientation.
@@ -1204,6 +1564,31 @@ def transform(xyz: numpy.typing.ArrayLike = (0.0, 0.0, 0.0), rpy: typing.Any = N
            [0., 1., 0., 2.],
            [0., 0., 1., 3.],
            [0., 0., 0., 1.]])
+    """
+def use_simd_level(level: str) -> None:
+    """
+    Choose the instructions that the kinematics use, in all threads.
+    
+    For comparing results and speeds; all levels agree to a few units in the last place.
+    
+    Parameters
+    ----------
+    level : str
+        'baseline', 'avx2' or 'avx512'.
+    
+    Raises
+    ------
+    ValueError
+        If this processor does not have it.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> best = tk.simd_level()
+    >>> tk.use_simd_level("baseline")
+    >>> tk.simd_level()
+    'baseline'
+    >>> tk.use_simd_level(best)
     """
 MAX_DOF: int = 32
 __version__: str = '0.1.0'

@@ -4,7 +4,7 @@ Rotations SO(3) and rigid transforms SE(3).
 from __future__ import annotations
 import numpy
 import numpy.typing
-__all__: list[str] = ['quaternion_from_rotation', 'rotation_from_quaternion', 'se3_adjoint', 'se3_exp', 'se3_left_jacobian', 'se3_left_jacobian_inverse', 'se3_log', 'se3_right_jacobian', 'se3_right_jacobian_inverse', 'so3_exp', 'so3_left_jacobian', 'so3_left_jacobian_inverse', 'so3_log', 'so3_right_jacobian', 'so3_right_jacobian_inverse']
+__all__: list[str] = ['quaternion_from_rotation', 'rotation_from_quaternion', 'rotation_from_rpy', 'rpy_from_rotation', 'se3_adjoint', 'se3_exp', 'se3_left_jacobian', 'se3_left_jacobian_inverse', 'se3_log', 'se3_right_jacobian', 'se3_right_jacobian_inverse', 'so3_exp', 'so3_left_jacobian', 'so3_left_jacobian_inverse', 'so3_log', 'so3_right_jacobian', 'so3_right_jacobian_inverse']
 def quaternion_from_rotation(R: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
     """
     Unit quaternion (w, x, y, z) of a rotation matrix, with w >= 0.
@@ -49,6 +49,47 @@ def rotation_from_quaternion(quaternion: numpy.typing.ArrayLike) -> numpy.typing
     array([[-1.,  0.,  0.],
            [ 0., -1.,  0.],
            [ 0.,  0.,  1.]])
+    """
+def rotation_from_rpy(rpy: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Rotation matrix Rz(yaw) Ry(pitch) Rx(roll), as in URDF.
+    
+    Parameters
+    ----------
+    rpy : (3,) or (N, 3), rad
+        Roll, pitch, yaw.
+    
+    Returns
+    -------
+    (3, 3) or (N, 3, 3)
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> R = tk.lie.rotation_from_rpy([0.1, 0.2, 0.3])
+    >>> np.array_equal(R, tk.transform(rpy=(0.1, 0.2, 0.3))[:3, :3])
+    True
+    """
+def rpy_from_rotation(R: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Roll, pitch, yaw of a rotation matrix: R = Rz(yaw) Ry(pitch) Rx(roll).
+    
+    The pitch is in [-pi/2, pi/2]. At either end, where only yaw - roll or yaw + roll is determined,
+    roll is 0. The three give R back to rounding everywhere.
+    
+    Parameters
+    ----------
+    R : (3, 3) or (N, 3, 3)
+    
+    Returns
+    -------
+    (3,) or (N, 3), rad
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> tk.lie.rpy_from_rotation(tk.transform(rpy=(0.1, 0.2, 0.3))[:3, :3])
+    array([0.1, 0.2, 0.3])
     """
 def se3_adjoint(T: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
     """

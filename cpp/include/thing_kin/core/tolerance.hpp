@@ -24,7 +24,12 @@ inline constexpr double kRotationTolerance = 1e-6;
 /// the axis is noise and is chosen by rule (so3.hpp).
 inline constexpr double kHalfTurnTolerance = 8 * kEpsilon;
 
-/// tan(angle) of [M17] (3.18) is refused this close to its pole at pi/2, rad.
+/// A cosine of the pitch below this is the rounding of a product of some ten rotations: there roll
+/// is noise and is chosen by rule (so3.hpp).
+inline constexpr double kGimbalLockTolerance = 32 * kEpsilon;
+
+/// tan(angle) of [M17] (3.18) and the rates of roll and yaw, which grow with 1/cos(pitch), are
+/// refused this close to their pole at pi/2, rad.
 inline constexpr double kQuarterTurnMargin = 1e-9;
 
 /// An angle this close to a whole number of right angles is meant to be one, so that Denavit-

@@ -28,8 +28,12 @@ struct JointBatch {
 void forward_kinematics(const Chain& chain, const JointBatch& batch, int frame, PoseFormat format,
                         double* out);
 
-/// Geometric Jacobians, (6, n) row-major a row, and poses, (4, 4), unless `T` is null.
-void geometric_jacobian(const Chain& chain, const JointBatch& batch, int frame,
-                        ReferenceFrame reference, double* T, double* J);
+/// Geometric Jacobians of a point, (6, n) row-major a row.
+void geometric_jacobian(const Chain& chain, const JointBatch& batch, const MovingPoint& of,
+                        ReferenceFrame reference, double* J);
+
+/// Poses, (4, 4), and Jacobians of a frame.
+void forward_kinematics_and_jacobian(const Chain& chain, const JointBatch& batch, int frame,
+                                     ReferenceFrame reference, double* T, double* J);
 
 }  // namespace thing_kin

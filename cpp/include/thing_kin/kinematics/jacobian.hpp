@@ -9,15 +9,24 @@ namespace thing_kin {
 
 /// What a Jacobian's rows mean, [linear; angular].
 enum class ReferenceFrame : std::uint8_t {
-  kWorldAligned,  ///< velocity of the frame's origin, axes of the root
-  kBody,          ///< velocity of the frame's origin, axes of the frame
+  kWorldAligned,  ///< velocity of the point, axes of the root
+  kBody,          ///< velocity of the point, axes of the frame
   kWorld,  ///< spatial twist: velocity of the point now at the root's origin, axes of the root
 };
 
 ReferenceFrame reference_frame_from_string(const std::string& name);
 
-/// Geometric Jacobian of a frame, [M17] (3.12)-(3.15) and Algorithm 1 as corrected.
-void geometric_jacobian(const Chain& chain, const Posture& posture, int frame,
+/// What moves: a point fixed to a frame. A frame's index alone means its origin.
+struct MovingPoint {
+  int frame;
+  Eigen::Vector3d point;  ///< coordinates in that frame, m
+
+  MovingPoint(int frame_index, const Eigen::Vector3d& at = Eigen::Vector3d::Zero())
+      : frame(frame_index), point(at) {}
+};
+
+/// Geometric Jacobian of a point, [M17] (3.12)-(3.15) and Algorithm 1 as corrected.
+void geometric_jacobian(const Chain& chain, const Posture& posture, const MovingPoint& of,
                         ReferenceFrame reference, Jacobian& J) noexcept;
 
 }  // namespace thing_kin

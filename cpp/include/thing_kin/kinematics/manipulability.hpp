@@ -6,11 +6,11 @@
 
 namespace thing_kin {
 
-/// How well a frame can move at one posture: singular values of its Jacobian and measures of them.
+/// How well a point can move at one posture: singular values of its Jacobian and measures of them.
 /// With fewer than six joints or a lost rank: M = 0, kappa = inf, sqrt(kappa/M) = inf.
 class Dexterity {
  public:
-  Dexterity(const Chain& chain, const Posture& posture, int frame) noexcept;
+  Dexterity(const Chain& chain, const Posture& posture, const MovingPoint& of) noexcept;
 
   /// M = sqrt(det(J J^T)), [M17] (4.30): the product of the six singular values.
   double manipulability() const noexcept;

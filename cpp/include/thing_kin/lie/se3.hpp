@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "thing_kin/core/types.hpp"
 
@@ -38,6 +39,14 @@ Vector6 se3_log(const SE3& T);
 
 /// Ad(T): twist in b to twist in a for T = T_a_b.
 Matrix6 se3_adjoint(const SE3& T);
+
+/// Lie bracket: d/dt (Ad(exp(t a)) b) at t = 0.
+inline Vector6 se3_bracket(const Vector6& a, const Vector6& b) {
+  Vector6 bracket;
+  bracket << a.tail<3>().cross(b.head<3>()) + a.head<3>().cross(b.tail<3>()),
+      a.tail<3>().cross(b.tail<3>());
+  return bracket;
+}
 
 /// exp(xi + d) = exp(J_l(xi) d) exp(xi) to first order.
 Matrix6 se3_left_jacobian(const Vector6& xi);

@@ -33,4 +33,8 @@ Eigen::Matrix3d rotation_from_quaternion(const Eigen::Vector4d& wxyz);
 /// R = Rz(yaw) Ry(pitch) Rx(roll), the URDF convention, from (roll, pitch, yaw).
 Eigen::Matrix3d rotation_from_rpy(const Eigen::Vector3d& rpy);
 
+/// (roll, pitch, yaw) of R, |roll|, |yaw| <= pi and |pitch| <= pi/2; the three give R back to
+/// rounding everywhere. At |pitch| = pi/2, where only yaw -+ roll is determined, roll is 0.
+Eigen::Vector3d rpy_from_rotation(const Eigen::Matrix3d& R);
+
 }  // namespace thing_kin
