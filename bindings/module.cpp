@@ -23,6 +23,8 @@ PYBIND11_MODULE(_core, m) {
 
   bind_dh(m);
   ChainClass chain = bind_chain(m);
+  bind_joint_difference(chain);
+  bind_urdf(chain);
   bind_omni_base(m);
   py::module_ robots = m.def_submodule("robots", "The robots of the two theses.");
   bind_robots(robots);

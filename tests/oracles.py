@@ -44,7 +44,7 @@ def dh_fk_all(rows: Sequence[tk.DH], q: Array) -> Array:
     frames = [np.eye(4)]
     for row in rows:
         d, theta = row.d, row.theta
-        if row.joint == "revolute":
+        if row.joint in ("revolute", "continuous"):
             theta += next(values)
         elif row.joint == "prismatic":
             d += next(values)
@@ -62,7 +62,11 @@ class PinocchioChain:
         self.model = pin.Model()
         self.frames = [0]  # Pinocchio's frame 0 is the universe
         parent, placement = 0, pin.SE3.Identity()
-        joints = {"revolute": pin.JointModelRZ, "prismatic": pin.JointModelPZ}
+        joints = {
+            "revolute": pin.JointModelRZ,
+            "continuous": pin.JointModelRZ,  # one angle, unlike Pinocchio's (cos, sin)
+            "prismatic": pin.JointModelPZ,
+        }
         for i, row in enumerate(rows):
             if row.joint in joints:
                 joint = joints[row.joint]()

@@ -13,6 +13,7 @@ from thing_kin.kdl import KdlChain
 ROBOT = tk.robots.thing()
 ARM = tk.robots.ur5()
 KDL = KdlChain(ARM)
+FREE = tk.Chain.from_dh([tk.DH(a=0.1, joint="continuous") for _ in range(9)])
 Q = np.array([0.0, -1.2, 1.4, -0.6, 1.2, 0.0, 0.3, -0.2, 0.4])
 T = tk.transform(xyz=(0.5, -0.2, 0.3), rpy=(0.1, 0.2, 0.3))
 XI = np.array([1.0, 2.0, 3.0, 0.1, 0.2, 0.3])
@@ -132,6 +133,8 @@ MODEL = [
         Argument("with_limits", name, getattr(ROBOT, name) / 2, limited(name), infinite=True)
         for name in ("lower", "upper", "velocity_limits", "acceleration_limits")
     ),
+    Argument("difference", "q_from", Q, lambda v: FREE.difference(v, Q[::-1]), moderate=True),
+    Argument("difference", "q_to", Q, lambda v: FREE.difference(Q[::-1], v), moderate=True),
     Argument("KdlChain.fk", "q", Q[:6], KDL.fk),
     Argument("KdlChain.jacobian", "q", Q[:6], KDL.jacobian),
 ]

@@ -57,13 +57,13 @@ def dh_rows(joint: st.SearchStrategy[str]) -> st.SearchStrategy[tk.DH]:
 
 @st.composite
 def cases(draw: st.DrawFn, max_rows: int = 12) -> Case:
-    """Chains of 1 to max_rows revolute, prismatic and constant rows, one at least a joint."""
-    moving = draw(dh_rows(st.sampled_from(("revolute", "prismatic"))))
-    any_row = dh_rows(st.sampled_from(("revolute", "prismatic", "fixed")))
+    """Chains of 1 to max_rows turning, sliding and constant rows, one at least a joint."""
+    moving = draw(dh_rows(st.sampled_from(("revolute", "continuous", "prismatic"))))
+    any_row = dh_rows(st.sampled_from(("revolute", "continuous", "prismatic", "fixed")))
     rows = draw(st.lists(any_row, max_size=max_rows - 1))
     rows.insert(draw(st.integers(0, len(rows))), moving)
     chain = tk.Chain.from_dh(rows)
-    q = [draw(angles if joint == "revolute" else lengths) for joint in chain.joint_types]
+    q = [draw(lengths if joint == "prismatic" else angles) for joint in chain.joint_types]
     return Case(tuple(rows), chain, np.array(q), draw(st.integers(0, len(rows))))
 
 

@@ -23,6 +23,12 @@ LAYERS: dict[str, tuple[str, ...]] = {
     "inverse": ("kinematics",),
 }
 KDL_SOURCE = CPP / "src" / "model" / "kdl_chain.cpp"
+URDF_SOURCE = CPP / "src" / "model" / "urdf.cpp"
+EXPAT_SOURCE = CPP / "src" / "model" / "urdf_document.cpp"
+# Targets of their own, so that only their users link what is foreign.
+APART = {KDL_SOURCE.name} | {
+    f"urdf{part}.cpp" for part in ("", "_document", "_excerpt", "_source", "_tree")
+}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 
@@ -66,7 +72,7 @@ def test_cmake_builds_every_source() -> None:
     text = (CPP / "CMakeLists.txt").read_text(encoding="utf-8")
     for layer, rest in re.findall(r"^thing_kin_layer\((\w+)([^)]*)\)", text, re.MULTILINE):
         named = set(re.findall(r"\w+\.cpp", rest))
-        present = {p.name for p in (CPP / "src").glob(f"{layer}/*.cpp") if p != KDL_SOURCE}
+        present = {p.name for p in (CPP / "src").glob(f"{layer}/*.cpp") if p.name not in APART}
         assert named == present
 
 
@@ -97,6 +103,22 @@ def test_kdl_stays_in_one_file() -> None:
     assert users == {KDL_SOURCE}
 
 
+@pytest.mark.parametrize(
+    ("foreign", "source"),
+    [
+        (("urdf_", "console_bridge", "tinyxml"), URDF_SOURCE),
+        (("expat",), EXPAT_SOURCE),
+    ],
+)
+def test_a_urdf_s_parsers_stay_in_one_file_each(foreign: tuple[str, ...], source: Path) -> None:
+    users = {
+        path
+        for path in sources(CPP, ROOT / "bindings", ROOT / "tests" / "cpp")
+        if any(name.startswith(foreign) for name in includes(path))
+    }
+    assert users == {source}
+
+
 def test_bindings_mirror_the_core() -> None:
     """One concept, one name: bindings/x/y.cpp binds cpp/include/thing_kin/x/y.hpp."""
     for path in (ROOT / "bindings").glob("*/*.cpp"):
@@ -124,3 +146,4 @@ def test_python_reaches_the_core_through_few_modules(path: Path) -> None:
         assert "_core" not in text
     if path.name != "kdl.py":
         assert "_kdl" not in text
+    assert "_urdf" not in text.replace("to_urdf", "").replace("from_urdf", "")

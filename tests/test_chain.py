@@ -99,8 +99,9 @@ def test_random_is_numpy_s_uniform(case: Case, seed: int):
     chain = chain.with_limits(
         lower=np.where(slides, -0.5, chain.lower), upper=np.where(slides, 0.25, chain.upper)
     )
-    one = np.random.default_rng(seed).uniform(chain.lower, chain.upper, (chain.n,))
-    many = np.random.default_rng(seed).uniform(chain.lower, chain.upper, (4, chain.n))
+    bounds = np.clip(chain.lower, -np.pi, None), np.clip(chain.upper, None, np.pi)
+    one = np.random.default_rng(seed).uniform(*bounds, (chain.n,))
+    many = np.random.default_rng(seed).uniform(*bounds, (4, chain.n))
     assert_array_equal(chain.random(rng=seed), one)
     assert_array_equal(chain.random(4, rng=seed), many)
 
@@ -113,10 +114,13 @@ def test_random_takes_a_generator_and_moves_it_on():
     assert robot.random(1, rng=7).shape == (1, 9)
 
 
-def test_a_continuous_joint_is_drawn_in_a_turn_and_a_slide_needs_limits():
-    chain = tk.Chain.from_dh([tk.DH(joint="revolute", lower=-np.inf, upper=np.inf)])
+def test_a_joint_without_limits_is_drawn_in_a_turn_and_a_slide_needs_limits():
     expected = np.random.default_rng(3).uniform(-np.pi, np.pi, (5, 1))
-    assert_array_equal(chain.random(5, rng=3), expected)
+    for row in (
+        tk.DH(joint="revolute", lower=-np.inf, upper=np.inf),
+        tk.DH(joint="continuous"),
+    ):
+        assert_array_equal(tk.Chain.from_dh([row]).random(5, rng=3), expected)
     with pytest.raises(ValueError, match=r"^q0: got a joint without limits"):
         tk.Chain.from_dh([tk.DH(joint="prismatic")]).random(rng=3)
 

@@ -110,6 +110,7 @@ ROBOTS = {
     "base first": tk.robots.thing(order="base_first", base_limits=[(-1, 2)] * 3),
     "with a tool": tk.robots.ur5().with_tool(translation(0.1, 0.2, 0.3)),
     "unlimited": tk.Chain.from_dh([tk.DH(theta=0.1), tk.DH(a=0.3, joint="prismatic")]),
+    "continuous": tk.Chain.from_dh([tk.DH(a=0.1, joint="continuous"), tk.DH(joint="revolute")]),
 }
 
 
@@ -142,6 +143,11 @@ def test_str_is_a_table_of_joints_types_and_limits():
     assert lines[6].split() == ["6", "x", "prismatic", "-5", "5", "1.1", "2.5", "m"]
     ends = {line.rindex(line.split()[5]) + len(line.split()[5]) for line in lines}
     assert len(ends) == 1  # the velocities stand right-aligned under one another
+
+
+def test_the_table_of_a_continuous_joint():
+    line = str(tk.Chain.from_dh([tk.DH(joint="continuous")])).splitlines()[2]
+    assert line.split() == ["0", "q0", "continuous", "-inf", "inf", "inf", "inf", "rad"]
 
 
 def test_a_long_name_does_not_break_the_table():

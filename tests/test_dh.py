@@ -23,9 +23,9 @@ def test_a_row_is_its_four_factors(row: tk.DH):
     assert_close(pose_of(row), dh_matrix(row.d, row.theta, row.a, row.alpha), atol=1e-15)
 
 
-@given(dh_rows(st.sampled_from(("revolute", "prismatic"))), st.floats(-3.0, 3.0))
+@given(dh_rows(st.sampled_from(("revolute", "continuous", "prismatic"))), st.floats(-3.0, 3.0))
 def test_the_joint_variable_adds_to_theta_or_d(row: tk.DH, q: float):
-    turns = row.joint == "revolute"
+    turns = row.joint != "prismatic"
     expected = dh_matrix(row.d + (not turns) * q, row.theta + turns * q, row.a, row.alpha)
     assert_close(tk.Chain.from_dh([row]).fk([q]), expected, atol=4e-15)
 
@@ -64,7 +64,9 @@ def test_default_limits():
     revolute, prismatic = tk.DH(joint="revolute"), tk.DH(joint="prismatic")
     assert (revolute.lower, revolute.upper) == (-np.pi, np.pi)
     assert (prismatic.lower, prismatic.upper) == (-np.inf, np.inf)
-    for row in (revolute, prismatic):
+    continuous = tk.DH(joint="continuous")
+    assert (continuous.lower, continuous.upper) == (-np.inf, np.inf)
+    for row in (revolute, prismatic, continuous):
         assert (row.velocity_limit, row.acceleration_limit) == (np.inf, np.inf)
 
 
@@ -86,6 +88,20 @@ def test_given_limits_and_names_are_kept():
 def test_one_given_limit_leaves_the_other_at_its_default():
     assert tk.DH(joint="revolute", upper=1.0).lower == -np.pi
     assert tk.DH(joint="prismatic", lower=0.0).upper == np.inf
+
+
+def test_a_continuous_joint_has_no_position_limits():
+    row = tk.DH(joint="continuous", lower=-np.inf, upper=np.inf, velocity_limit=2.0)
+    assert row.velocity_limit == 2.0
+    for limit in ("lower", "upper"):
+        with pytest.raises(
+            ValueError, match=rf"^{limit}: got 1, expected no limit \(inf\) for a con"
+        ):
+            tk.DH(joint="continuous", **{limit: 1.0})
+    chain = tk.Chain.from_dh([tk.DH(joint="continuous")])
+    with pytest.raises(ValueError, match=r"^lower: got -1, expected no limit"):
+        chain.with_limits(lower=[-1.0])
+    assert chain.with_limits(velocity_limits=[2.0]).velocity_limits[0] == 2.0
 
 
 def test_none_and_fixed_are_the_same_constant_row():

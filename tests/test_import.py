@@ -4,6 +4,8 @@ import json
 import subprocess
 import sys
 
+import pytest
+
 
 def modules_after(statement: str) -> set[str]:
     """Modules that the statement loads in a fresh interpreter."""
@@ -25,12 +27,37 @@ def test_it_loads_numpy_only() -> None:
     numpys_own = foreign(modules_after("import numpy, numpy.random, numpy.typing"))
     loaded = modules_after("import thing_kin")
     assert foreign(loaded) - numpys_own == {"thing_kin"}
-    for heavy in ("matplotlib", "tqdm", "scipy", "thing_kin._kdl", "thing_kin.kdl"):
+    for heavy in (
+        "matplotlib",
+        "tqdm",
+        "scipy",
+        "yaml",
+        "thing_kin._kdl",
+        "thing_kin.kdl",
+        "thing_kin._urdf",
+    ):
         assert heavy not in loaded
 
 
 def test_kdl_is_loaded_on_demand() -> None:
     assert "thing_kin._kdl" in modules_after("import thing_kin.kdl")
+
+
+def test_the_urdf_reader_is_loaded_on_demand() -> None:
+    write = "import thing_kin as tk; text = tk.robots.ur5().to_urdf()"
+    assert "thing_kin._urdf" not in modules_after(write)
+    read = modules_after(f"{write}; tk.Chain.from_urdf(text)")
+    assert "thing_kin._urdf" in read
+    assert foreign(read) == foreign(modules_after("import thing_kin"))
+
+
+@pytest.mark.parametrize("order", ["{0}; {1}", "{1}; {0}"])
+def test_two_urdfdoms_in_one_process(order: str) -> None:
+    """Pinocchio brings its own, and console_bridge under the same name."""
+    ours = "import thing_kin as tk; text = tk.robots.ur5().to_urdf(); tk.Chain.from_urdf(text)"
+    theirs = "import pinocchio as pin"
+    use = "assert pin.buildModelFromXML(text).nq == tk.Chain.from_urdf(text).n"
+    modules_after(f"{order.format(ours, theirs)}; {use}")
 
 
 def test_using_it_loads_no_more() -> None:

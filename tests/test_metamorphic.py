@@ -66,7 +66,7 @@ def scaled(row: tk.DH, factor: float) -> tk.DH:
 @given(case=cases(), factor=st.sampled_from([0.5, 2.0, 1024.0]))  # powers of two: exact
 def test_the_unit_of_length_scales_what_is_a_length(case: Case, factor: float):
     chain = tk.Chain.from_dh([scaled(row, factor) for row in case.rows])
-    turns = np.array([joint == "revolute" for joint in chain.joint_types])
+    turns = np.array([joint != "prismatic" for joint in chain.joint_types])
     q = np.where(turns, case.q, factor * case.q)
     T, J = case.chain.fk(case.q), case.chain.jacobian(case.q)
     T[:3, 3] *= factor

@@ -97,6 +97,12 @@ def test_only_theta_is_wrapped() -> None:
     np.testing.assert_array_equal(solver.solve(np.zeros(6), [np.full(6, 5.0)]).errors[0], 5.0)
 
 
+def test_continuous_joints_go_the_short_way_round() -> None:
+    arm = tk.Chain.from_dh([tk.DH(a=1.0, joint=j) for j in ("continuous", "revolute")])
+    e = tk.TaskPriority(arm, [tk.PostureTask()]).solve(np.zeros(2), [np.full(2, 5.0)]).errors[0]
+    np.testing.assert_allclose(e, [5.0 - 2 * np.pi, 5.0], rtol=1e-15)
+
+
 def test_the_base_is_found_in_either_order() -> None:
     robot = tk.robots.thing(order="base_first")
     q = np.roll(HOME, 3)

@@ -24,8 +24,7 @@ KDL::Chain chain_of(const thing_kin::Chain& robot) {
   KDL::Chain chain;
   chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::Fixed), to_kdl(joints[0].fixed)));
   for (std::size_t i = 0; i < joints.size(); ++i) {
-    const auto axis =
-        joints[i].type == thing_kin::JointType::kRevolute ? KDL::Joint::RotZ : KDL::Joint::TransZ;
+    const auto axis = thing_kin::is_rotary(joints[i].type) ? KDL::Joint::RotZ : KDL::Joint::TransZ;
     const thing_kin::SE3& tip =
         i + 1 < joints.size() ? joints[i + 1].fixed : robot.frames().back().offset;
     chain.addSegment(KDL::Segment(KDL::Joint(axis), to_kdl(tip)));

@@ -27,9 +27,8 @@ pin::Model model_of(const thing_kin::Chain& robot) {
   for (const thing_kin::Chain::Joint& j : robot.joints()) {
     const std::string name = "joint" + std::to_string(joint);
     const pin::SE3 before = to_pinocchio(j.fixed);
-    joint = j.type == thing_kin::JointType::kRevolute
-                ? model.addJoint(joint, pin::JointModelRZ(), before, name)
-                : model.addJoint(joint, pin::JointModelPZ(), before, name);
+    joint = thing_kin::is_rotary(j.type) ? model.addJoint(joint, pin::JointModelRZ(), before, name)
+                                         : model.addJoint(joint, pin::JointModelPZ(), before, name);
   }
   const pin::SE3 tool = to_pinocchio(robot.frames().back().offset);
   model.addFrame(pin::Frame("tool", joint, 0, tool, pin::OP_FRAME));

@@ -115,7 +115,7 @@ BaseTask(gain=0.5)
   bind_joint_task<PostureTask>(m, "PostureTask",
                                R"(Bring all joints to a configuration; target (n,).
 
-The theta of a base goes the short way round.
+The theta of a base and continuous joints go the short way round.
 
 Parameters
 ----------

@@ -169,9 +169,9 @@ SmallVector read_rates(const py::object& values, const char* name, int n) {
 ChainClass bind_chain(py::module_& m) {
   ChainClass chain(m, "Chain", R"(An immutable serial chain of joints, and its kinematics.
 
-Made by Chain.from_dh, on_omni_base or the functions of thing_kin.robots. Configurations q are (n,)
-in the order of `names`, rad and m; a leading axis is a batch. Two chains of equal content are equal;
-a chain can be hashed, copied, pickled and shared between threads.
+Made by Chain.from_dh, Chain.from_urdf, on_omni_base or the functions of thing_kin.robots.
+Configurations q are (n,) in the order of `names`, rad and m; a leading axis is a batch. Two chains
+of equal content are equal; a chain can be hashed, copied, pickled and shared between threads.
 
 Examples
 --------
@@ -223,7 +223,7 @@ array([1.5, 0. , 0. ])
             }
             return py::tuple(types);
           },
-          "'revolute' or 'prismatic', in the order of q.")
+          "'revolute', 'continuous' or 'prismatic', in the order of q.")
       .def_property_readonly(
           "frames",
           [](const Chain& c) {
@@ -259,8 +259,8 @@ array([1.5, 0. , 0. ])
       .def("random", &random, py::arg("n") = py::none(), py::arg("rng") = py::none(),
            R"(Configurations drawn uniformly within the limits.
 
-Exactly np.random.default_rng(rng).uniform(lower, upper, size); a revolute joint without limits is
-drawn in +-pi, one with a single limit in the turn next to it.
+Exactly np.random.default_rng(rng).uniform(lower, upper, size); a joint that turns without limits,
+as a continuous one does, is drawn in +-pi, one with a single limit in the turn next to it.
 
 Parameters
 ----------
@@ -321,7 +321,8 @@ lower, upper, velocity_limits, acceleration_limits : (n,), optional
 Raises
 ------
 ValueError
-    If a shape is wrong, limits are crossed or rates are not positive.
+    If a shape is wrong, limits are crossed, rates are not positive or a continuous joint is given
+    a position limit.
 
 Examples
 --------

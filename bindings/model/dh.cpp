@@ -24,7 +24,7 @@ DhRow make_row(double d, double theta, double a, double alpha,
   if (row.joint == JointType::kFixed &&
       (lower || upper || velocity_limit || acceleration_limit || !row.name.empty())) {
     throw InvalidArgument("joint", "a fixed row with a joint's name or limits",
-                          "joint='revolute' or 'prismatic' for these");
+                          "joint='revolute', 'continuous' or 'prismatic' for these");
   }
   const double range = row.joint == JointType::kRevolute ? std::numbers::pi : kInfinity;
   row.limits = {lower.value_or(-range), upper.value_or(range), velocity_limit.value_or(kInfinity),
@@ -44,21 +44,23 @@ Parameters
 ----------
 d, a : float, m
 theta, alpha : float, rad
-joint : 'revolute', 'prismatic' or None
-    None (or 'fixed'): a constant row, which has no joint variable.
+joint : 'revolute', 'continuous', 'prismatic' or None
+    Continuous: revolute without limits. None (or 'fixed'): a constant row, which has no joint
+    variable.
 name : str
     Of the joint; default q0, q1, ... along the chain.
 frame : str
     Of the frame after the row; default frame1, frame2, ..., and tool for the last.
 lower, upper : float, rad or m
-    Default +-pi for a revolute joint, unlimited for a prismatic one.
+    Default +-pi for a revolute joint, unlimited for a prismatic one; none for a continuous one.
 velocity_limit, acceleration_limit : float > 0, rad/s, rad/s^2 (m/s, m/s^2)
     Default unlimited (inf).
 
 Raises
 ------
 ValueError
-    If a number is not finite, limits are crossed or rates are not positive.
+    If a number is not finite, limits are crossed or rates are not positive, or a continuous joint
+    has a position limit.
 
 Examples
 --------
@@ -77,7 +79,7 @@ Examples
       .def_readonly("alpha", &DhRow::alpha, "Twist about x, rad.")
       .def_property_readonly(
           "joint", [](const DhRow& row) { return to_string(row.joint); },
-          "'revolute', 'prismatic' or 'fixed'.")
+          "'revolute', 'continuous', 'prismatic' or 'fixed'.")
       .def_readonly("name", &DhRow::name, "Name of the joint; empty: numbered.")
       .def_readonly("frame", &DhRow::frame, "Name of the frame after the row; empty: numbered.")
       .def_property_readonly(

@@ -3,16 +3,36 @@
 #include "array.hpp"
 #include "bindings.hpp"
 #include "model/omni_base.hpp"
+#include "model/ur_calibration.hpp"
 
 namespace thing_kin::python {
 
 void bind_robots(py::module_& m) {
-  m.def("ur5", &robots::ur5, R"(Universal Robots UR5 (CB3), the arm of [X21].
+  m.def(
+      "ur5",
+      [](const CalibrationSource& calibration) {
+        return calibration.is_none() ? robots::ur5() : robots::ur5(read_calibration(calibration));
+      },
+      py::arg("calibration") = py::none(), R"(Universal Robots UR5 (CB3), the arm of [X21].
 
 Limits: +-2 pi and 180 deg/s for every joint (UR5/CB3 user manual 3.13, as in the maker's
 Universal_Robots_ROS2_Description, config/ur5/joint_limits.yaml, which halves the elbow's range for
 one planner's sake; this model does not). The maker states no joint acceleration: 5 rad/s^2 is what
 its driver's ur_moveit_config uses.
+
+Parameters
+----------
+calibration : path or mapping, optional
+    The arm as measured in the factory: the YAML that the maker's ur_robot_driver extracts
+    (ur_calibration), which needs the extra `yaml`, or a mapping of the same shape, {'kinematics':
+    {'shoulder': {'x': ..., 'y', 'z', 'roll', 'pitch', 'yaw'}, 'upper_arm', 'forearm', 'wrist_1',
+    'wrist_2', 'wrist_3'}}; m and rad. Joints, limits and frames stay, the frames where their axes
+    are measured to be. Default: the maker's nominal dimensions.
+
+Raises
+------
+ValueError
+    If the calibration cannot be read, a key is missing or unknown, or a number is out of range.
 
 Examples
 --------
@@ -20,11 +40,26 @@ Examples
 >>> tk.robots.ur5().n
 6
 )");
-  m.def("ur10", &robots::ur10, R"(Universal Robots UR10 (CB3), the arm of [M17].
+  m.def(
+      "ur10",
+      [](const CalibrationSource& calibration) {
+        return calibration.is_none() ? robots::ur10() : robots::ur10(read_calibration(calibration));
+      },
+      py::arg("calibration") = py::none(), R"(Universal Robots UR10 (CB3), the arm of [M17].
 
 Limits: +-2 pi for every joint, 120 deg/s for base and shoulder, 180 deg/s for the others (UR10/CB3
 user manual 3.13, as in the maker's Universal_Robots_ROS2_Description,
 config/ur10/joint_limits.yaml; [M17] Table 2.1). 5 rad/s^2 as in the maker's ur_moveit_config.
+
+Parameters
+----------
+calibration : path or mapping, optional
+    As for ur5.
+
+Raises
+------
+ValueError
+    As for ur5.
 
 Examples
 --------

@@ -15,7 +15,7 @@ SE3 product_of_rows(const std::vector<DhRow>& rows, const Eigen::VectorXd& q) {
   SE3 T;
   int joint = 0;
   for (const DhRow& row : rows) {
-    const bool revolute = row.joint == JointType::kRevolute;
+    const bool revolute = is_rotary(row.joint);
     const double variable = row.joint == JointType::kFixed ? 0.0 : q[joint++];
     T = T * dh_transform(row.d + (revolute ? 0.0 : variable),
                          row.theta + (revolute ? variable : 0.0), row.a, row.alpha);

@@ -14,7 +14,7 @@ using Jet = ceres::Jet<double, 12>;
 using JetMatrix = Eigen::Matrix<Jet, 4, 4>;
 
 JetMatrix row_transform(const DhRow& row, const Jet& variable) {
-  const bool revolute = row.joint == JointType::kRevolute;
+  const bool revolute = is_rotary(row.joint);
   const bool prismatic = row.joint == JointType::kPrismatic;
   const Jet theta = revolute ? row.theta + variable : Jet(row.theta);
   const Jet d = prismatic ? row.d + variable : Jet(row.d);

@@ -14,7 +14,7 @@ inline double uniform(Generator& rng, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(rng);
 }
 
-/// 1 to 12 rows, revolute, prismatic and constant, at least one joint.
+/// 1 to 12 rows, of every joint type and constant, at least one joint.
 inline std::vector<DhRow> random_rows(Generator& rng) {
   const int count = std::uniform_int_distribution<int>(1, 12)(rng);
   std::vector<DhRow> rows;
@@ -24,7 +24,7 @@ inline std::vector<DhRow> random_rows(Generator& rng) {
     row.theta = uniform(rng, -3, 3);
     row.a = uniform(rng, -1, 1);
     row.alpha = uniform(rng, -3, 3);
-    row.joint = static_cast<JointType>(std::uniform_int_distribution<int>(0, 2)(rng));
+    row.joint = static_cast<JointType>(std::uniform_int_distribution<int>(0, 3)(rng));
     rows.push_back(row);
   }
   if (rows[0].joint == JointType::kFixed) {

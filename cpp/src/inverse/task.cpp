@@ -7,6 +7,7 @@
 #include "thing_kin/kinematics/jacobian.hpp"
 #include "thing_kin/kinematics/pose_error.hpp"
 #include "thing_kin/lie/so3.hpp"
+#include "thing_kin/model/joint_difference.hpp"
 
 namespace thing_kin {
 
@@ -78,8 +79,8 @@ void PostureTask::evaluate(const Chain& chain, const Posture& /*posture*/, int /
                            const double* q, const double* target, TaskValue& value) const noexcept {
   const int n = chain.dof();
   value.jacobian.setIdentity(n, n);
-  value.error =
-      Eigen::Map<const Eigen::VectorXd>(target, n) - Eigen::Map<const Eigen::VectorXd>(q, n);
+  value.error.resize(n);
+  joint_difference(chain, q, target, value.error.data());
   if (chain.base_joints()) {
     double& theta = value.error[(*chain.base_joints())[2]];
     theta = wrapped(theta);

@@ -119,7 +119,7 @@ void Chain::collect_joints() {
     if (segment.type == JointType::kFixed) {
       continue;
     }
-    check(segment.limits);
+    check(segment.type, segment.limits);
     const int index = description_.order[i];
     joints_[i].index = index;
     joint_names_[static_cast<std::size_t>(index)] = segment.joint;
@@ -197,7 +197,7 @@ std::string to_table(const Chain& chain) {
     std::snprintf(line, sizeof line, "%3d  %-20.40s %-10s %10.4g %10.4g %10.4g %13.4g  %s\n", i,
                   chain.joint_names()[k].c_str(), to_string(type), chain.lower()[i],
                   chain.upper()[i], chain.velocity_limits()[i], chain.acceleration_limits()[i],
-                  type == JointType::kRevolute ? "rad" : "m");
+                  is_rotary(type) ? "rad" : "m");
     out << line;
   }
   std::string table = out.str();

@@ -47,7 +47,7 @@ void check(const DhRow& row) {
   check_finite(row.a, "a");
   check_finite(row.alpha, "alpha");
   if (row.joint != JointType::kFixed) {
-    check(row.limits);
+    check(row.joint, row.limits);
   }
 }
 

@@ -20,6 +20,7 @@ KDL::Frame to_kdl(const SE3& T) {
 KDL::Joint to_kdl(const Segment& segment) {
   switch (segment.type) {
     case JointType::kRevolute:
+    case JointType::kContinuous:
       return KDL::Joint(segment.joint, KDL::Joint::RotZ);
     case JointType::kPrismatic:
       return KDL::Joint(segment.joint, KDL::Joint::TransZ);

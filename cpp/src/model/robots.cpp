@@ -1,6 +1,9 @@
 #include "thing_kin/model/robots.hpp"
 
 #include <numbers>
+#include <utility>
+
+#include "thing_kin/lie/so3.hpp"
 
 namespace thing_kin::robots {
 
@@ -37,7 +40,33 @@ std::vector<DhRow> ur_rows(const UrGeometry& g) {
           {g.d6, 0, 0, 0, kRevolute, fast, "q5", "tool"}};
 }
 
+// The Denavit-Hartenberg frame before joint k is offset by the row's d from where the joint's own
+// frame, which the calibration gives, would be.
+Chain calibrated(const UrGeometry& geometry, const UrCalibration& calibration, std::string name) {
+  check(calibration);
+  const std::vector<DhRow> rows = ur_rows(geometry);
+  const auto origin = [&](std::size_t i) {
+    const UrCalibration::Origin& of_joint = calibration.origins[i];
+    return SE3{rotation_from_rpy(of_joint.rpy), of_joint.xyz};
+  };
+  const auto along_z = [&](double d) { return dh_transform(d, 0, 0, 0); };
+  ChainDescription description;
+  description.name = std::move(name);
+  description.order = {0, 1, 2, 3, 4, 5};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    Segment segment = to_segment(rows[i]);
+    segment.before = i == 0 ? origin(0) : along_z(rows[i].d);
+    segment.after = i + 1 < rows.size() ? origin(i + 1) * along_z(-rows[i + 1].d) : SE3{};
+    description.segments.push_back(std::move(segment));
+  }
+  return Chain(std::move(description));
+}
+
 }  // namespace
+
+Chain ur5(const UrCalibration& calibration) { return calibrated(kUr5, calibration, "ur5"); }
+
+Chain ur10(const UrCalibration& calibration) { return calibrated(kUr10, calibration, "ur10"); }
 
 Chain ur5() { return Chain::from_dh(ur_rows(kUr5), "ur5"); }
 

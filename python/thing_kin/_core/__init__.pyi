@@ -5,6 +5,7 @@ from __future__ import annotations
 import collections.abc
 import numpy
 import numpy.typing
+import os
 import typing
 from . import lie
 from . import robots
@@ -71,21 +72,23 @@ class DH:
     ----------
     d, a : float, m
     theta, alpha : float, rad
-    joint : 'revolute', 'prismatic' or None
-        None (or 'fixed'): a constant row, which has no joint variable.
+    joint : 'revolute', 'continuous', 'prismatic' or None
+        Continuous: revolute without limits. None (or 'fixed'): a constant row, which has no joint
+        variable.
     name : str
         Of the joint; default q0, q1, ... along the chain.
     frame : str
         Of the frame after the row; default frame1, frame2, ..., and tool for the last.
     lower, upper : float, rad or m
-        Default +-pi for a revolute joint, unlimited for a prismatic one.
+        Default +-pi for a revolute joint, unlimited for a prismatic one; none for a continuous one.
     velocity_limit, acceleration_limit : float > 0, rad/s, rad/s^2 (m/s, m/s^2)
         Default unlimited (inf).
     
     Raises
     ------
     ValueError
-        If a number is not finite, limits are crossed or rates are not positive.
+        If a number is not finite, limits are crossed or rates are not positive, or a continuous joint
+        has a position limit.
     
     Examples
     --------
@@ -125,7 +128,7 @@ class DH:
     @property
     def joint(self) -> str:
         """
-        'revolute', 'prismatic' or 'fixed'.
+        'revolute', 'continuous', 'prismatic' or 'fixed'.
         """
     @property
     def lower(self) -> float:
@@ -156,9 +159,9 @@ class Chain:
     """
     An immutable serial chain of joints, and its kinematics.
     
-    Made by Chain.from_dh, on_omni_base or the functions of thing_kin.robots. Configurations q are (n,)
-    in the order of `names`, rad and m; a leading axis is a batch. Two chains of equal content are equal;
-    a chain can be hashed, copied, pickled and shared between threads.
+    Made by Chain.from_dh, Chain.from_urdf, on_omni_base or the functions of thing_kin.robots.
+    Configurations q are (n,) in the order of `names`, rad and m; a leading axis is a batch. Two chains
+    of equal content are equal; a chain can be hashed, copied, pickled and shared between threads.
     
     Examples
     --------
@@ -191,6 +194,57 @@ class Chain:
         >>> arm = tk.Chain.from_dh([tk.DH(a=1.0, joint="revolute"), tk.DH(a=0.5, joint="revolute")])
         >>> arm.fk([0.0, 0.0])[:3, 3]
         array([1.5, 0. , 0. ])
+        """
+    @staticmethod
+    def from_urdf(source: str | bytes | os.PathLike[str], base: str | None = None, tip: str | None = None, packages: collections.abc.Mapping[str, str | os.PathLike[str]] | None = None, name: str | None = None) -> Chain:
+        """
+        Chain between two links of a URDF.
+        
+        Its frames are the links from base to tip, its joints the revolute, continuous and prismatic ones
+        between them, in that order, with any axis and origin. Where the way leads up to a common ancestor
+        first, joints are run through backwards; they keep the sign of q and their limits.
+        
+        A velocity limit that is absent, zero or negative means unlimited, and so does any limit of the
+        largest double. Efforts, soft limits, inertias, meshes and what is not on the chain are not read.
+        
+        Parameters
+        ----------
+        source : path, str or bytes
+            A file, `package://name/rest`, or the XML itself: bytes, or a str that begins with '<'.
+        base, tip : str, optional
+            Names of links; default: the root, and the only leaf below the base.
+        packages : mapping from str to path, optional
+            Folders of ROS packages by name; others are looked for in ROS_PACKAGE_PATH and
+            AMENT_PREFIX_PATH.
+        name : str, optional
+            Of the chain; default: the robot's.
+        
+        Returns
+        -------
+        Chain
+        
+        Raises
+        ------
+        ValueError
+            If there is no such file, the text is no URDF, it leaves base or tip open, a joint of the chain
+            mimics another, is planar or floating or has a limit or axis that is none, or there are none or
+            more than 32 joints.
+        ImportError
+            If thing_kin was built without urdfdom.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> arm = tk.Chain.from_urdf('''
+        ... <robot name="turntable">
+        ...   <link name="floor"/> <link name="plate"/>
+        ...   <joint name="turn" type="continuous">
+        ...     <parent link="floor"/> <child link="plate"/>
+        ...     <origin xyz="0 0 0.2"/> <axis xyz="0 0 1"/>
+        ...   </joint>
+        ... </robot>''')
+        >>> arm.names, arm.joint_types, arm.frames
+        (('turn',), ('continuous',), ('floor', 'plate'))
         """
     def __copy__(self) -> Chain:
         ...
@@ -440,6 +494,34 @@ class Chain:
         >>> tk.robots.thing().dexterity_gradient([0, -1, 1, 0, 1, 0, 0, 0, 0]).shape
         (9,)
         """
+    def difference(self, q_from: numpy.typing.ArrayLike, q_to: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        The way from one configuration to another: q_to - q_from, the shorter way round.
+        
+        The difference of a continuous joint, for which q and q + 2 pi are the same place, is in [-pi, pi),
+        exact to rounding after thousands of turns too. Other joints have limits, and cannot take the other
+        way round: theirs is the plain difference. Where both are batches, row by row.
+        
+        Parameters
+        ----------
+        q_from, q_to : (n,) or (N, n), rad and m
+        
+        Returns
+        -------
+        (n,) or (N, n)
+        
+        Raises
+        ------
+        ValueError
+            If a shape is wrong, the batches' lengths differ, or an entry is not finite.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> arm = tk.Chain.from_dh([tk.DH(joint="continuous"), tk.DH(a=1.0, joint="revolute")])
+        >>> arm.difference([3.0, 3.0], [-3.0, -3.0]).round(4)
+        array([ 0.2832, -6.    ])
+        """
     def drift(self, q: numpy.typing.ArrayLike, qd: numpy.typing.ArrayLike, frame: str = 'world_aligned', of: str | int | None = None, point: numpy.typing.ArrayLike | None = None, *, out: numpy.typing.NDArray[numpy.float64] | None = None, threads: typing.SupportsIndex | None = None) -> numpy.typing.NDArray[numpy.float64]:
         """
         The drift dJ/dt qd: the acceleration that is there without any qdd.
@@ -594,7 +676,7 @@ class Chain:
         Examples
         --------
         >>> import numpy as np, thing_kin as tk
-        >>> tk.robots.thing().fk_quaternion(np.zeros(9), frame="base")
+        >>> tk.robots.thing().fk_quaternion(np.zeros(9), frame="base") + 0.0
         array([0., 0., 0., 1., 0., 0., 0.])
         """
     def hessian(self, q: numpy.typing.ArrayLike, frame: str = 'world_aligned', of: str | int | None = None, point: numpy.typing.ArrayLike | None = None, *, out: numpy.typing.NDArray[numpy.float64] | None = None, threads: typing.SupportsIndex | None = None) -> numpy.typing.NDArray[numpy.float64]:
@@ -755,8 +837,8 @@ class Chain:
         """
         Configurations drawn uniformly within the limits.
         
-        Exactly np.random.default_rng(rng).uniform(lower, upper, size); a revolute joint without limits is
-        drawn in +-pi, one with a single limit in the turn next to it.
+        Exactly np.random.default_rng(rng).uniform(lower, upper, size); a joint that turns without limits,
+        as a continuous one does, is drawn in +-pi, one with a single limit in the turn next to it.
         
         Parameters
         ----------
@@ -845,6 +927,38 @@ class Chain:
         >>> tk.robots.thing().task_vector(np.zeros(9)).shape
         (10,)
         """
+    def to_urdf(self, name: str | None = None) -> str:
+        """
+        The chain as the text of a URDF: joints, limits and frames.
+        
+        Chain.from_urdf gives its kinematics back to rounding. Each frame is a link of its name; where a
+        joint's frame is not on its axis, as in most Denavit-Hartenberg rows, there is one more link,
+        '<frame>_joint'. A URDF cannot say everything: q is in the order of the joints from the root
+        outwards, acceleration limits are left out, a base is three joints like any others, and a revolute
+        joint without limits becomes continuous. Other infinite limits are written as the largest double.
+        
+        Parameters
+        ----------
+        name : str, optional
+            Of the robot; default: the chain's.
+        
+        Returns
+        -------
+        str
+        
+        Raises
+        ------
+        ValueError
+            If a name has control characters, which XML cannot hold.
+        
+        Examples
+        --------
+        >>> import numpy as np, thing_kin as tk
+        >>> ur5 = tk.robots.ur5()
+        >>> again = tk.Chain.from_urdf(ur5.to_urdf())
+        >>> again.names == ur5.names, np.allclose(again.fk(np.ones(6)), ur5.fk(np.ones(6)), atol=1e-14)
+        (True, True)
+        """
     def velocity(self, q: numpy.typing.ArrayLike, qd: numpy.typing.ArrayLike, frame: str = 'world_aligned', of: str | int | None = None, point: numpy.typing.ArrayLike | None = None, *, out: numpy.typing.NDArray[numpy.float64] | None = None, threads: typing.SupportsIndex | None = None) -> numpy.typing.NDArray[numpy.float64]:
         """
         Velocity of a frame, or of a point fixed to it: J qd, [linear, angular].
@@ -889,7 +1003,8 @@ class Chain:
         Raises
         ------
         ValueError
-            If a shape is wrong, limits are crossed or rates are not positive.
+            If a shape is wrong, limits are crossed, rates are not positive or a continuous joint is given
+            a position limit.
         
         Examples
         --------
@@ -935,7 +1050,7 @@ class Chain:
     @property
     def joint_types(self) -> tuple:
         """
-        'revolute' or 'prismatic', in the order of q.
+        'revolute', 'continuous' or 'prismatic', in the order of q.
         """
     @property
     def lower(self) -> numpy.typing.NDArray[numpy.float64]:
@@ -1150,7 +1265,7 @@ class PostureTask(Task):
     """
     Bring all joints to a configuration; target (n,).
     
-    The theta of a base goes the short way round.
+    The theta of a base and continuous joints go the short way round.
     
     Parameters
     ----------

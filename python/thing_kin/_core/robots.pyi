@@ -2,6 +2,8 @@
 The robots of the two theses.
 """
 from __future__ import annotations
+import collections.abc
+import os
 import thing_kin._core
 import typing
 __all__: list[str] = ['pioneer_lx_ur5', 'thing', 'ur10', 'ur5']
@@ -53,7 +55,7 @@ def thing(*, order: str = 'arm_first', base_limits: typing.Any = None) -> thing_
     >>> robot.fk(np.zeros(9))[:3, 3]
     array([ 0.526141, -1.1743  ,  0.6646  ])
     """
-def ur10() -> thing_kin._core.Chain:
+def ur10(calibration: str | os.PathLike[str] | collections.abc.Mapping[str, typing.Any] | None = None) -> thing_kin._core.Chain:
     """
     Universal Robots UR10 (CB3), the arm of [M17].
     
@@ -61,13 +63,23 @@ def ur10() -> thing_kin._core.Chain:
     user manual 3.13, as in the maker's Universal_Robots_ROS2_Description,
     config/ur10/joint_limits.yaml; [M17] Table 2.1). 5 rad/s^2 as in the maker's ur_moveit_config.
     
+    Parameters
+    ----------
+    calibration : path or mapping, optional
+        As for ur5.
+    
+    Raises
+    ------
+    ValueError
+        As for ur5.
+    
     Examples
     --------
     >>> import thing_kin as tk
     >>> tk.robots.ur10().velocity_limits.round(3)
     array([2.094, 2.094, 3.142, 3.142, 3.142, 3.142])
     """
-def ur5() -> thing_kin._core.Chain:
+def ur5(calibration: str | os.PathLike[str] | collections.abc.Mapping[str, typing.Any] | None = None) -> thing_kin._core.Chain:
     """
     Universal Robots UR5 (CB3), the arm of [X21].
     
@@ -75,6 +87,20 @@ def ur5() -> thing_kin._core.Chain:
     Universal_Robots_ROS2_Description, config/ur5/joint_limits.yaml, which halves the elbow's range for
     one planner's sake; this model does not). The maker states no joint acceleration: 5 rad/s^2 is what
     its driver's ur_moveit_config uses.
+    
+    Parameters
+    ----------
+    calibration : path or mapping, optional
+        The arm as measured in the factory: the YAML that the maker's ur_robot_driver extracts
+        (ur_calibration), which needs the extra `yaml`, or a mapping of the same shape, {'kinematics':
+        {'shoulder': {'x': ..., 'y', 'z', 'roll', 'pitch', 'yaw'}, 'upper_arm', 'forearm', 'wrist_1',
+        'wrist_2', 'wrist_3'}}; m and rad. Joints, limits and frames stay, the frames where their axes
+        are measured to be. Default: the maker's nominal dimensions.
+    
+    Raises
+    ------
+    ValueError
+        If the calibration cannot be read, a key is missing or unknown, or a number is out of range.
     
     Examples
     --------

@@ -101,7 +101,7 @@ class BaseTask final : public Task {
                 const double* target, TaskValue& value) const noexcept override;
 };
 
-/// The whole configuration; target (n). A base's theta goes the short way round.
+/// The whole configuration; target (n). A base's theta and continuous joints go the short way.
 class PostureTask final : public Task {
  public:
   explicit PostureTask(double gain = 1.0) : Task(gain, "") {}

@@ -5,12 +5,19 @@
 
 #include "thing_kin/model/chain.hpp"
 #include "thing_kin/model/omni_base.hpp"
+#include "thing_kin/model/ur_calibration.hpp"
 
 /// The robots of the two theses. Sources of the limits stand with the numbers in robots.cpp.
 namespace thing_kin::robots {
 
 Chain ur5();
 Chain ur10();
+
+/// The arm as calibrated, with the same joints, limits and frames: frame k, which its
+/// Denavit-Hartenberg row puts on the axis of joint k + 1, is on that axis as measured. The root is
+/// the driver's `base`, the tool its `tool0`.
+Chain ur5(const UrCalibration& calibration);
+Chain ur10(const UrCalibration& calibration);
 
 /// Limits of the Ridgeback's x, y, theta.
 BaseLimits ridgeback_limits();

@@ -8,9 +8,15 @@
 
 namespace thing_kin {
 
-enum class JointType : std::uint8_t { kFixed, kRevolute, kPrismatic };
+/// A continuous joint is a revolute one without limits: q and q + 2 pi are the same place.
+enum class JointType : std::uint8_t { kFixed, kRevolute, kPrismatic, kContinuous };
 
-/// "fixed", "revolute", "prismatic".
+/// Turns about its axis, within limits or without.
+constexpr bool is_rotary(JointType type) {
+  return type == JointType::kRevolute || type == JointType::kContinuous;
+}
+
+/// "fixed", "revolute", "prismatic", "continuous".
 const char* to_string(JointType type);
 JointType joint_type_from_string(const std::string& name);
 
@@ -24,8 +30,9 @@ struct JointLimits {
   bool operator==(const JointLimits&) const = default;
 };
 
-/// Throws InvalidArgument unless lower <= upper, the rates are positive and nothing is NaN.
-void check(const JointLimits& limits);
+/// Throws InvalidArgument unless lower <= upper, the rates are positive and nothing is NaN; and if
+/// a continuous joint has a position limit.
+void check(JointType type, const JointLimits& limits);
 
 /// One link of a chain: its frame is parent * before * joint(q) * after, where the joint turns
 /// about or slides along z. Denavit-Hartenberg rows and URDF joints both come down to this.
