@@ -147,3 +147,25 @@ def test_python_reaches_the_core_through_few_modules(path: Path) -> None:
     if path.name != "kdl.py":
         assert "_kdl" not in text
     assert "_urdf" not in text.replace("to_urdf", "").replace("from_urdf", "")
+
+
+def test_kernels_share_no_inline_function_with_the_rest() -> None:
+    """What is compiled for AVX-512 must not be what the linker keeps for everyone."""
+    kernels = CPP / "src" / "kinematics" / "kernels"
+    allowed = {"thing_kin/model/skeleton.hpp", "thing_kin/core/max_dof.hpp"}
+    entry = kernels / "kernels.cpp"
+    compiled = {entry}
+    queue = [entry]
+    while queue:
+        for name in includes(queue.pop()):
+            path = kernels / name
+            if path.is_file() and path not in compiled:
+                compiled.add(path)
+                queue.append(path)
+            assert path.is_file() or name in allowed, name
+    for header in allowed:
+        assert set(includes(CPP / "include" / header)) <= allowed
+    own = [path for path in compiled if path.name not in ("kernels.hpp",)]
+    assert len(own) >= 5
+    for path in own:
+        assert "namespace thing_kin::THING_KIN_LEVEL {" in path.read_text(encoding="utf-8")

@@ -51,8 +51,8 @@ SimdLevel simd_level_from_string(const std::string& name) {
 }
 
 SimdLevel best_simd_level() noexcept {
-  static const SimdLevel kBest = detect();
-  return kBest;
+  static const SimdLevel best = detect();
+  return best;
 }
 
 SimdLevel simd_level() noexcept { return current().load(std::memory_order_relaxed); }

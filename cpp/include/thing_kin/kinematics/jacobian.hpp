@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "thing_kin/kinematics/posture.hpp"
 
@@ -21,8 +22,8 @@ struct MovingPoint {
   int frame;
   Eigen::Vector3d point;  ///< coordinates in that frame, m
 
-  MovingPoint(int frame_index, const Eigen::Vector3d& at = Eigen::Vector3d::Zero())
-      : frame(frame_index), point(at) {}
+  MovingPoint(int frame_index, Eigen::Vector3d at = Eigen::Vector3d::Zero()) noexcept
+      : frame(frame_index), point(std::move(at)) {}
 };
 
 /// Geometric Jacobian of a point, [M17] (3.12)-(3.15) and Algorithm 1 as corrected.

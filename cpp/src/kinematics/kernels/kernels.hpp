@@ -7,8 +7,8 @@ namespace thing_kin {
 /// The loops of forward kinematics and Jacobian, compiled for one instruction set. Numbers only:
 /// see lanes.hpp. Columns are x, y, z, origin of a frame, each padded to four numbers.
 struct Kernels {
-  enum Reference { kWorldAligned, kBody, kWorld };
-  enum Format { kMatrix, kPositionQuaternion };
+  enum Reference : unsigned char { kWorldAligned, kBody, kWorld };
+  enum Format : unsigned char { kMatrix, kPositionQuaternion };
 
   /// Frames of the first `joints` joints after their motion: 16 numbers each.
   void (*place)(const Skeleton& skeleton, const double* q, int joints, double* columns) noexcept;

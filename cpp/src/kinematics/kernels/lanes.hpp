@@ -16,16 +16,19 @@ inline Lanes splat(double value) { return Lanes{} + value; }
 inline Lanes load(const double* from) { return *reinterpret_cast<const Unaligned*>(from); }
 inline void store(const Lanes& v, double* to) { *reinterpret_cast<Unaligned*>(to) = v; }
 
+inline LanesInt as_bits(const Lanes& v) { return __builtin_bit_cast(LanesInt, v); }
+inline Lanes as_numbers(const LanesInt& v) { return __builtin_bit_cast(Lanes, v); }
+
 inline Lanes absolute(const Lanes& v) {
   constexpr long long kAllButSign = 0x7fffffffffffffff;
-  return (Lanes)((LanesInt)v & kAllButSign);
+  return as_numbers(as_bits(v) & kAllButSign);
 }
 
 inline Lanes larger(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
 
 /// Lanes of `a` where all bits of the mask are set, of `b` where none is.
 inline Lanes select(const LanesInt& mask, const Lanes& a, const Lanes& b) {
-  return (Lanes)((mask & (LanesInt)a) | (~mask & (LanesInt)b));
+  return as_numbers((mask & as_bits(a)) | (~mask & as_bits(b)));
 }
 
 /// Whether one of `count` numbers is larger than `limit` or smaller than -limit.

@@ -24,7 +24,7 @@ inline SinCos sincos(const Lanes& angle) {
   constexpr double kRounder = 0x1.8p52;  // its last bits are whole numbers
 
   const Lanes rounded = angle * kQuadrantsPerRadian + kRounder;
-  const LanesInt quadrant = (LanesInt)rounded;
+  const LanesInt quadrant = as_bits(rounded);
   const Lanes k = rounded - kRounder;
   const Lanes r = ((angle - k * kHalfPi1) - k * kHalfPi2) - k * kHalfPi3;
 
@@ -45,8 +45,8 @@ inline SinCos sincos(const Lanes& angle) {
   const LanesInt odd = -(quadrant & 1);
   const LanesInt sine_sign = (quadrant & 2) << 62;
   const LanesInt cosine_sign = ((quadrant + 1) & 2) << 62;
-  return {(Lanes)((LanesInt)select(odd, cosine, sine) ^ sine_sign),
-          (Lanes)((LanesInt)select(odd, sine, cosine) ^ cosine_sign)};
+  return {as_numbers(as_bits(select(odd, cosine, sine)) ^ sine_sign),
+          as_numbers(as_bits(select(odd, sine, cosine)) ^ cosine_sign)};
 }
 
 /// The same for angles of any size.

@@ -88,7 +88,7 @@ struct Motion {
   alignas(64) double sine[kMaxDof];
   alignas(64) double cosine[kMaxDof];
 
-  inline Motion(const Skeleton& skeleton, const double* from, int joints) {
+  Motion(const Skeleton& skeleton, const double* from, int joints) {
     alignas(64) double angle[kMaxDof];
     for (int i = 0; i < joints; ++i) {
       const Skeleton::Step& step = skeleton.step[i];
@@ -114,7 +114,7 @@ struct Motions {
   Lanes sine[kMaxDof];
   Lanes cosine[kMaxDof];
 
-  inline Motions(const Skeleton& skeleton, const double* from, int joints, bool huge) {
+  Motions(const Skeleton& skeleton, const double* from, int joints, bool huge) {
     for (int i = 0; i < joints; ++i) {
       const Skeleton::Step& step = skeleton.step[i];
       q[i] = gather(from + step.index, skeleton.joints);
