@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "thing_kin/core/error.hpp"
+#include "thing_kin/core/finite.hpp"
 #include "thing_kin/core/tolerance.hpp"
 
 namespace thing_kin::python {
@@ -55,18 +56,9 @@ std::string shape_text(const py::ssize_t* shape, py::ssize_t dimensions, const c
   return out.str();
 }
 
-// NaN and inf both make x - x a NaN, and the sum vectorises.
-bool all_finite(const double* data, py::ssize_t count) {
-  double sum = 0.0;
-  for (py::ssize_t i = 0; i < count; ++i) {
-    sum += data[i] - data[i];
-  }
-  return sum == 0.0;
-}
-
 void check_finite(const Batch& batch, const char* name) {
   const py::ssize_t total = batch.count * batch.size;
-  if (all_finite(batch.data, total)) {
+  if (all_finite(batch.data, static_cast<std::size_t>(total))) {
     return;
   }
   for (py::ssize_t i = 0; i < total; ++i) {

@@ -21,8 +21,14 @@ ReferenceFrame reference_frame_from_string(const std::string& name) {
 void geometric_jacobian(const Chain& chain, const Posture& posture, const MovingPoint& of,
                         ReferenceFrame reference, Jacobian& J) noexcept {
   J.resize(6, chain.dof());
-  kernels().jacobian(chain.skeleton(), skeleton_frame_at(chain, of), posture.columns,
-                     to_kernel(reference), J.data());
+  const auto compute = [&](const SkeletonFrame& frame) {
+    kernels().jacobian(chain.skeleton(), frame, posture.columns, to_kernel(reference), J.data());
+  };
+  if (of.point.isZero(0.0)) {
+    compute(chain.skeleton_frame(of.frame));
+  } else {
+    compute(skeleton_frame_at(chain, of));
+  }
 }
 
 }  // namespace thing_kin

@@ -9,19 +9,19 @@ namespace thing_kin {
 namespace {
 
 /// A rotation about z or x by its cosine and sine: right angles stay exact.
-struct Turn {
+struct Angle {
   double cos = 1.0;
   double sin = 0.0;
 
-  Turn operator*(const Turn& other) const {
+  Angle operator*(const Angle& other) const {
     return {cos * other.cos - sin * other.sin, sin * other.cos + cos * other.sin};
   }
-  Turn inverse() const { return {cos, -sin}; }
+  Angle inverse() const { return {cos, -sin}; }
   bool is_identity() const { return cos == 1.0 && sin == 0.0; }
 };
 
 /// Rounding next to a right angle goes; the rest is normalized.
-Turn exact(double cosine, double sine) {
+Angle exact(double cosine, double sine) {
   if (std::abs(sine) <= kRightAngleTolerance) {
     return {std::copysign(1.0, cosine), 0.0};
   }
@@ -32,18 +32,18 @@ Turn exact(double cosine, double sine) {
   return {cosine / norm, sine / norm};
 }
 
-Eigen::Matrix3d about_z(const Turn& turn) {
+Eigen::Matrix3d about_z(const Angle& angle) {
   Eigen::Matrix3d R;
-  R << turn.cos, -turn.sin, 0, turn.sin, turn.cos, 0, 0, 0, 1;
+  R << angle.cos, -angle.sin, 0, angle.sin, angle.cos, 0, 0, 0, 1;
   return R;
 }
 
 /// T = Rz(before) Tr(offset) Rx(tilt) Rz(after)
 struct Split {
-  Turn before;
+  Angle before;
   Eigen::Vector3d offset;
-  Turn tilt;
-  Turn after;
+  Angle tilt;
+  Angle after;
 };
 
 Split split(const SE3& T) {
@@ -69,14 +69,14 @@ Split split(const SE3& T) {
   return parts;
 }
 
-Tilt kind_of(const Turn& tilt) {
-  if (tilt.is_identity()) {
-    return Tilt::kNone;
+Turn kind_of(const Angle& angle) {
+  if (angle.is_identity()) {
+    return Turn::kNone;
   }
-  if (tilt.cos == 0.0) {
-    return tilt.sin > 0.0 ? Tilt::kQuarter : Tilt::kMinusQuarter;
+  if (angle.cos == 0.0) {
+    return angle.sin > 0.0 ? Turn::kQuarter : Turn::kMinusQuarter;
   }
-  return Tilt::kGeneral;
+  return Turn::kGeneral;
 }
 
 void write_columns(const SE3& T, double* columns) {
@@ -92,7 +92,7 @@ Skeleton make_skeleton(std::span<const Chain::Joint> joints) {
   Skeleton skeleton;
   skeleton.joints = static_cast<int>(joints.size());
   write_columns(joints[0].fixed, skeleton.start);
-  Turn after;  // what the last split left for the joint behind it
+  Angle after;  // what the last split left for the joint behind it
   for (std::size_t i = 0; i < joints.size(); ++i) {
     Skeleton::Step& step = skeleton.step[i];
     step.index = joints[i].index;
@@ -100,15 +100,17 @@ Skeleton make_skeleton(std::span<const Chain::Joint> joints) {
     if (i > 0) {
       const Split parts = split(joints[i].fixed);
       Eigen::Map<Eigen::Vector3d>{step.offset} = parts.offset;
-      step.shifts = !parts.offset.isZero(0.0);
+      for (int axis = 0; axis < 3; ++axis) {
+        step.shifts[axis] = parts.offset[axis] != 0.0;
+      }
       step.cos_tilt = parts.tilt.cos;
       step.sin_tilt = parts.tilt.sin;
       step.tilt = kind_of(parts.tilt);
       after = parts.after;
     }
     const bool last = i + 1 == joints.size();
-    const Turn turn = after * (last ? Turn{} : split(joints[i + 1].fixed).before);
-    step.turned = !turn.is_identity();
+    const Angle turn = after * (last ? Angle{} : split(joints[i + 1].fixed).before);
+    step.turn = kind_of(turn);
     skeleton.cos_turn[i] = turn.cos;
     skeleton.sin_turn[i] = turn.sin;
   }

@@ -7,8 +7,8 @@
 
 namespace thing_kin {
 
-/// How a joint's axis is tilted about x against the one before.
-enum class Tilt : unsigned char { kNone, kQuarter, kMinusQuarter, kGeneral };
+/// A constant turn: right angles need no multiplication.
+enum class Turn : unsigned char { kNone, kQuarter, kMinusQuarter, kGeneral };
 
 /// A chain as the kernels see it. Every constant transform between two axes is Rz Tr(offset) Rx Rz;
 /// the turns about z commute with the joints next to them and merge into them, so that a pose is
@@ -22,9 +22,9 @@ struct Skeleton {
     double offset[3] = {0, 0, 0};
     double cos_tilt = 1.0;
     double sin_tilt = 0.0;
-    Tilt tilt = Tilt::kNone;
-    bool shifts = false;  ///< offset is not zero
-    bool turned = false;  ///< the turn is not zero
+    Turn tilt = Turn::kNone;
+    Turn turn = Turn::kNone;
+    bool shifts[3] = {false, false, false};  ///< which of the offset are not zero
     bool prismatic = false;
     int index = 0;  ///< of the joint in q
   };

@@ -34,7 +34,7 @@ void pose(const Skeleton& skeleton, const SkeletonFrame& frame, const double* q,
 
 // Pose of a frame whose joints are placed already; `last` is that of joint frame.joints - 1.
 template <typename C>
-Frame<C> end_of(const SkeletonFrame& frame, const Frame<C>& last) {
+[[gnu::always_inline]] inline Frame<C> end_of(const SkeletonFrame& frame, const Frame<C>& last) {
   if (frame.joints > 0) {
     return attach(frame, last);
   }
@@ -61,10 +61,12 @@ void jacobian(const Skeleton& skeleton, const SkeletonFrame& frame, const double
   }
   end = end_of(frame, end);
   const Column point = reference == Kernels::kWorld ? Column{} : end.origin;
-  Column rows[3];
-  for (int i = 0; i < 3; ++i) {
-    const double row[] = {end.x[i], end.y[i], end.z[i], 0.0};
-    read(row, rows[i]);
+  Column rows[3] = {};
+  if (reference == Kernels::kBody) {
+    for (int i = 0; i < 3; ++i) {
+      const double row[] = {end.x[i], end.y[i], end.z[i], 0.0};
+      read(row, rows[i]);
+    }
   }
   for (int i = 0; i < skeleton.joints; ++i) {
     const Skeleton::Step& step = skeleton.step[i];

@@ -38,9 +38,7 @@ inline SinCos sincos(const Lanes& angle) {
                   t2 * ((2.4801587298763433e-05 - 2.7557317270560326e-07 * t) +
                         t2 * (2.0876146024689747e-09 - 1.1382614868556325e-11 * t));
   const Lanes sine = r + (r * t) * s;
-  const Lanes half = 0.5 * t;
-  const Lanes one_minus = 1.0 - half;
-  const Lanes cosine = one_minus + (((1.0 - one_minus) - half) + t2 * c);
+  const Lanes cosine = 1.0 + t * (t * c - 0.5);
 
   const LanesInt odd = -(quadrant & 1);
   const LanesInt sine_sign = (quadrant & 2) << 62;

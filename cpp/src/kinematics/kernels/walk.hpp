@@ -6,56 +6,66 @@
 
 namespace thing_kin::THING_KIN_LEVEL {
 
-/// frame Tr(offset) Rx(tilt)
+/// frame Tr(offset); most robots' offsets lie along one axis
 template <typename C>
-inline void advance(const Skeleton::Step& step, Frame<C>& frame) {
-  if (step.shifts) {
-    frame.origin = frame.origin +
-                   (step.offset[0] * frame.x + step.offset[1] * frame.y + step.offset[2] * frame.z);
+[[gnu::always_inline]] inline void shift(const Skeleton::Step& step, Frame<C>& frame) {
+  if (step.shifts[0]) {
+    frame.origin = frame.origin + step.offset[0] * frame.x;
   }
-  const C y = frame.y;
-  switch (step.tilt) {
-    case Tilt::kNone:
-      break;
-    case Tilt::kQuarter:
-      frame.y = frame.z;
-      frame.z = -y;
-      break;
-    case Tilt::kMinusQuarter:
-      frame.y = -frame.z;
-      frame.z = y;
-      break;
-    case Tilt::kGeneral:
-      frame.y = step.cos_tilt * y + step.sin_tilt * frame.z;
-      frame.z = step.cos_tilt * frame.z - step.sin_tilt * y;
+  if (step.shifts[1]) {
+    frame.origin = frame.origin + step.offset[1] * frame.y;
+  }
+  if (step.shifts[2]) {
+    frame.origin = frame.origin + step.offset[2] * frame.z;
   }
 }
 
-/// frame Rz
-template <typename C, typename S>
-inline void turn(Frame<C>& frame, const S& sine, const S& cosine) {
-  const C x = frame.x;
-  frame.x = cosine * x + sine * frame.y;
-  frame.y = cosine * frame.y - sine * x;
+/// Calls next(u cos + v sin, v cos - u sin): right angles cost nothing.
+template <typename C, typename Next>
+[[gnu::always_inline]] inline void turn(Turn kind, double cosine, double sine, const C u, const C v,
+                                        const Next& next) {
+  switch (kind) {
+    case Turn::kNone:
+      return next(u, v);
+    case Turn::kQuarter:
+      return next(v, -u);
+    case Turn::kMinusQuarter:
+      return next(-v, u);
+    case Turn::kGeneral:
+      return next(cosine * u + sine * v, cosine * v - sine * u);
+  }
 }
 
-/// Places the first `joints` joints and calls visit(i, frame of joint i after its motion).
-/// q(i), sine(i) and cosine(i) are of joint i from the root, its constant turn included.
+/// Places the first `joints` joints and calls visit(i, frame of joint i after its motion). `motion`
+/// has q, and for joints that turn sine and cosine, their constant turn included.
 template <typename C, typename Motion, typename Visit>
-inline Frame<C> walk(const Skeleton& skeleton, int joints, const Motion& motion, Visit visit) {
+[[gnu::always_inline]] inline Frame<C> walk(const Skeleton& skeleton, int joints,
+                                            const Motion& motion, const Visit& visit) {
   Frame<C> frame;
   read(skeleton.start, frame);
   for (int i = 0; i < joints; ++i) {
     const Skeleton::Step& step = skeleton.step[i];
     if (i > 0) {
-      advance(step, frame);
+      shift(step, frame);
     }
-    if (step.prismatic) {
-      frame.origin = frame.origin + motion.q[i] * frame.z;
-    }
-    if (!step.prismatic || step.turned) {
-      turn(frame, motion.sine[i], motion.cosine[i]);
-    }
+    // y and z by value: tilted, they go on to the joint's motion without a detour through memory.
+    const auto move = [&](const C y, const C z) __attribute__((always_inline)) {
+      const C x = frame.x;
+      frame.z = z;
+      if (step.prismatic) {
+        frame.origin = frame.origin + motion.q[i] * z;
+        turn(
+            step.turn, skeleton.cos_turn[i], skeleton.sin_turn[i], x,
+            y, [&](const C u, const C v) __attribute__((always_inline)) {
+              frame.x = u;
+              frame.y = v;
+            });
+      } else {
+        frame.x = motion.cosine[i] * x + motion.sine[i] * y;
+        frame.y = motion.cosine[i] * y - motion.sine[i] * x;
+      }
+    };
+    turn(step.tilt, step.cos_tilt, step.sin_tilt, frame.y, frame.z, move);
     visit(i, frame);
   }
   return frame;
@@ -63,7 +73,7 @@ inline Frame<C> walk(const Skeleton& skeleton, int joints, const Motion& motion,
 
 /// placed * offset
 template <typename C>
-inline Frame<C> attach(const SkeletonFrame& to, const Frame<C>& placed) {
+[[gnu::always_inline]] inline Frame<C> attach(const SkeletonFrame& to, const Frame<C>& placed) {
   const auto along = [&](const double* v) {
     return v[0] * placed.x + v[1] * placed.y + v[2] * placed.z;
   };
@@ -118,11 +128,11 @@ struct Motions {
     for (int i = 0; i < joints; ++i) {
       const Skeleton::Step& step = skeleton.step[i];
       q[i] = gather(from + step.index, skeleton.joints);
-      SinCos motion{splat(0.0), splat(1.0)};
-      if (!step.prismatic) {
-        motion = huge ? sincos_of_any(q[i]) : sincos(q[i]);
+      if (step.prismatic) {
+        continue;
       }
-      if (step.turned) {
+      SinCos motion = huge ? sincos_of_any(q[i]) : sincos(q[i]);
+      if (step.turn != Turn::kNone) {
         motion = add_turn(motion, splat(skeleton.sin_turn[i]), splat(skeleton.cos_turn[i]));
       }
       sine[i] = motion.sin;
