@@ -3,6 +3,8 @@
 import os
 import platform
 from collections.abc import Iterator
+from datetime import date
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from statistics import median
 from typing import NamedTuple
@@ -10,14 +12,15 @@ from typing import NamedTuple
 import numpy as np
 
 import thing_kin as tk
+from problem import Work
 
-HEADER = f"{'work':<54} {'thing_kin':>9}  {'peer':<17} {'median':>8} {'ratio':>6}  >= 1"
+HEADER = f"{'work':<46} {'thing_kin':>9}  {'peer':<17} {'median':>8} {'ratio':>6}  >= 1"
 
 
 class Line(NamedTuple):
     """One work, one peer; thing_kin's own line comes first and has the ratio 1."""
 
-    work: str
+    work: Work
     peer: str
     seconds: float  # median, per item
     ours: float  # thing_kin's, in the same rounds
@@ -28,12 +31,12 @@ class Line(NamedTuple):
         return self.seconds / self.ours
 
 
-def lines_of(title: str, times: dict[str, list[float]], items: int = 1) -> Iterator[Line]:
-    medians = {name: median(seconds) / items for name, seconds in times.items()}
+def lines_of(work: Work, times: dict[str, list[float]]) -> Iterator[Line]:
+    medians = {name: median(seconds) / work.items for name, seconds in times.items()}
     ours = medians.pop("thing_kin")
-    yield Line(title, "thing_kin", ours, ours)
+    yield Line(work, "thing_kin", ours, ours)
     for name, seconds in medians.items():
-        yield Line(title, name, seconds, ours)
+        yield Line(work, name, seconds, ours)
 
 
 def shown(seconds: float) -> str:
@@ -46,9 +49,10 @@ def shown(seconds: float) -> str:
 
 def rows(lines: list[Line]) -> Iterator[str]:
     """One row a peer; the work's title and thing_kin's median stand in the first."""
-    title, ours = lines[0].work, shown(lines[0].seconds)
-    for line in lines[1:] or [None]:
-        start = f"{title:<54} {ours:>9}"
+    title, ours = lines[0].work.title, shown(lines[0].seconds)
+    peers: list[Line | None] = [*lines[1:]]
+    for line in peers or [None]:
+        start = f"{title:<46} {ours:>9}"
         title = ours = ""
         if line is None:
             yield f"{start}  no peer here"
@@ -66,6 +70,13 @@ def summary(lines: list[Line]) -> str:
     return f"{len(peers)} lines, {lost} below 1, {wrong} not timed"
 
 
+def version_of(package: str) -> str | None:
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return None
+
+
 def machine(cpu: int | None) -> dict[str, str | int | None]:
     """What the figures belong to."""
     info = Path("/proc/cpuinfo")
@@ -75,7 +86,11 @@ def machine(cpu: int | None) -> dict[str, str | int | None]:
         "cpu": models[0] if models else platform.processor(),
         "cpus": os.cpu_count(),
         "pinned_to": cpu,
+        "simd_level": tk.simd_level(),
         "python": platform.python_version(),
         "numpy": np.__version__,
+        "pin": version_of("pin"),
+        "rtb": version_of("roboticstoolbox-python"),
         "thing_kin": tk.__version__,
+        "date": date.today().isoformat(),
     }

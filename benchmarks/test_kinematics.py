@@ -1,31 +1,21 @@
-"""Forward kinematics, Jacobian and Hessian of the Thing, one call and batches."""
+"""Kinematics of the Thing, one call and batches: all of problem.WORKS but the inverse ones."""
 
+import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
 from peers import Peer
-from racing import contenders, race
+from problem import WORKS
+from racing import PEERS, race
+
+PAIRS = [
+    pytest.param(work.name, peer, marks=pytest.mark.benchmark(group=work.name))
+    for work in WORKS
+    if work.name not in ("pinv", "step")
+    for peer in PEERS
+    if work.name in peer.works()
+]
 
 
-@contenders("fk")
-def test_fk(benchmark: BenchmarkFixture, peer: Peer) -> None:
-    race(benchmark, peer, "fk")
-
-
-@contenders("jacobian")
-def test_jacobian(benchmark: BenchmarkFixture, peer: Peer) -> None:
-    race(benchmark, peer, "jacobian")
-
-
-@contenders("hessian")
-def test_hessian(benchmark: BenchmarkFixture, peer: Peer) -> None:
-    race(benchmark, peer, "hessian")
-
-
-@contenders("fk_batch")
-def test_fk_batch(benchmark: BenchmarkFixture, peer: Peer) -> None:
-    race(benchmark, peer, "fk_batch")
-
-
-@contenders("jacobian_batch")
-def test_jacobian_batch(benchmark: BenchmarkFixture, peer: Peer) -> None:
-    race(benchmark, peer, "jacobian_batch")
+@pytest.mark.parametrize(("work", "peer"), PAIRS, ids=lambda x: getattr(x, "name", x))
+def test_kinematics(benchmark: BenchmarkFixture, work: str, peer: Peer) -> None:
+    race(benchmark, peer, work)

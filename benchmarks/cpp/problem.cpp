@@ -19,6 +19,7 @@ Eigen::Matrix<double, n, 1> uniform(std::mt19937_64& generator, double bound) {
 Problem::Input draw(const thing_kin::Chain& robot, std::mt19937_64& generator) {
   Problem::Input input;
   input.q = uniform<9>(generator, 3.0);
+  input.qd = uniform<9>(generator, 1.0);
   thing_kin::Posture posture;
   thing_kin::place_joints(robot, input.q.data(), posture);
   thing_kin::Jacobian J;
@@ -39,6 +40,10 @@ Problem::Problem() : robot(thing_kin::robots::thing(thing_kin::JointOrder::kBase
   for (std::size_t i = 0; i < kInputs; ++i) {
     inputs.push_back(draw(robot, generator));
   }
+  for (std::size_t i = 0; i < kRows; ++i) {
+    const Vector9 q = uniform<9>(generator, 3.0);
+    rows.insert(rows.end(), q.begin(), q.end());
+  }
 }
 
 const Problem& problem() {
@@ -49,6 +54,21 @@ const Problem& problem() {
 std::vector<Entry>& entries() {
   static std::vector<Entry> instance;
   return instance;
+}
+
+std::vector<Level> levels() {
+  std::vector<Level> found;
+  for (const Level level : {Level::kAvx512, Level::kAvx2, Level::kBaseline}) {
+    if (level <= best()) {
+      found.push_back(level);
+    }
+  }
+  return found;
+}
+
+std::string name_of(Level level) {
+  const std::string name = "thing_kin";
+  return level == best() ? name : name + "_" + thing_kin::to_string(level);
 }
 
 }  // namespace bench

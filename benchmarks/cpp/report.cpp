@@ -24,6 +24,7 @@ void RatioReporter::ReportRuns(const std::vector<Run>& runs) {
 void RatioReporter::Finalize() {
   std::ostream& out = GetOutputStream();
   out << "\nmedian CPU time of the peer over thing_kin's: above 1 thing_kin is faster\n"
+         "thing_kin uses the best instructions of this processor, thing_kin_<level> lower ones\n"
       << std::fixed;
   for (const auto& [work, medians] : medians_) {
     const auto ours = medians.find("thing_kin");
@@ -32,10 +33,11 @@ void RatioReporter::Finalize() {
     }
     for (const auto& [who, median] : medians) {
       if (who != ours->first) {
-        out << std::left << std::setw(18) << work << std::setw(17) << who << std::right
-            << std::setprecision(0) << std::setw(7) << median << " ns /" << std::setw(6)
+        const bool is_peer = who.rfind(ours->first, 0) != 0;  // or thing_kin at a lower level
+        out << std::left << std::setw(23) << work << std::setw(19) << who << std::right
+            << std::setprecision(1) << std::setw(8) << median << " ns /" << std::setw(8)
             << ours->second << " ns = " << std::setprecision(2) << median / ours->second
-            << (median < ours->second ? "  SLOWER than the peer\n" : "\n");
+            << (is_peer && median < ours->second ? "  SLOWER than the peer\n" : "\n");
       }
     }
   }

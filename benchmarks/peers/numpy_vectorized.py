@@ -1,80 +1,87 @@
-"""Batches in numpy alone, written to be fast: structure of arrays, in blocks that fit the cache."""
+"""Batches in numpy alone, as a competent user writes them."""
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
+from numpy_chain import Columns, NumpyChain, cross, quaternions
 from peers import Peer, register
-from problem import Problem
-from thing_dh import Pose, folded
+from problem import BATCH, Problem
 
 BLOCK = 2048
+HESSIAN_BLOCK = 256  # of a hundred times as many numbers a row
 
 
-def combine(columns: list[Any], weights: Any) -> Any:
-    """Sum of weight * column; zeros and ones, which are most weights, cost nothing."""
-    terms = [c if w == 1.0 else w * c for c, w in zip(columns, weights, strict=True) if w != 0.0]
-    return sum(terms[1:], start=terms[0]) if terms else np.zeros((3, 1))
+def new_poses(count: int) -> Any:
+    poses = np.zeros((count, 4, 4))
+    poses[:, 3, 3] = 1.0
+    return poses
 
 
-def place(frame: list[Any], constant: Pose) -> list[Any]:
-    """Frame [x, y, z, p], each (3, N), times a constant pose."""
-    axes, p = frame[:3], frame[3]
-    moved = [combine(axes, constant[:3, j]) for j in range(3)]
-    offset = constant[:3, 3]
-    return [*moved, p + combine(axes, offset) if offset.any() else p]
-
-
-def cross(a: Any, b: Any) -> Any:
-    return np.stack(
-        np.broadcast_arrays(
-            a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
-        )
-    )
+def write_pose(out: Any, tool: Columns) -> None:
+    for j, column in enumerate(tool):
+        out[:, :3, j] = column.T
 
 
 @register
 class NumpyVectorized(Peer):
     name = "numpy_vectorized"
-    note = "hand-written numpy, structure of arrays, blocks of 2048"
+    note = f"hand-written numpy, structure of arrays, blocks of {BLOCK}"
 
     def __init__(self, problem: Problem) -> None:
         super().__init__(problem)
-        self.joints, self.tool = folded()
+        self.chain = NumpyChain()
+        self.poses = new_poses(BATCH)
 
-    def _walk(self, q: Any) -> Iterator[list[Any]]:
-        """Frame of every joint, then the tool, for a block q of shape (n, N)."""
-        frame = [*np.eye(3)[:, :, None], np.zeros((3, 1))]
-        for (before, kind), value in zip(self.joints, q, strict=True):
-            x, y, z, p = place(frame, before)
-            yield [x, y, z, p]
-            if kind == "prismatic":
-                frame = [x, y, z, p + z * value]
-            else:
-                c, s = np.cos(value), np.sin(value)
-                frame = [c * x + s * y, c * y - s * x, z, p]
-        yield place(frame, self.tool)
+    def _fk(self, Q: Any, out: Any) -> Any:
+        for rows, _, tool in self.chain.blocks(Q, BLOCK):
+            write_pose(out[rows], tool)
+        return out
 
     def fk_batch(self, Q: Any) -> Any:
-        poses = np.zeros((len(Q), 4, 4))
-        poses[:, 3, 3] = 1.0
-        for start in range(0, len(Q), BLOCK):
-            block = slice(start, start + BLOCK)
-            *_, frame = self._walk(np.ascontiguousarray(Q[block].T))
-            for j, column in enumerate(frame):
-                poses[block, :3, j] = column.T
-        return poses
+        return self._fk(Q, new_poses(len(Q)))
+
+    def fk_batch_out(self, Q: Any) -> Any:
+        return self._fk(Q, self.poses)
+
+    def fk_quaternion_batch(self, Q: Any) -> Any:
+        out = np.empty((len(Q), 7))
+        for rows, _, tool in self.chain.blocks(Q, BLOCK):
+            out[rows, :3] = tool[3].T
+            out[rows, 3:] = quaternions(tool).T
+        return out
+
+    def _write_jacobian(self, out: Any, frames: list[Columns], tool: Columns) -> None:
+        for i, (linear, angular) in enumerate(self.chain.twists(frames, tool)):
+            out[:, :3, i] = linear.T
+            if angular is not None:
+                out[:, 3:, i] = angular.T
 
     def jacobian_batch(self, Q: Any) -> Any:
-        jacobians = np.zeros((len(Q), 6, len(self.joints)))
-        for start in range(0, len(Q), BLOCK):
-            block = slice(start, start + BLOCK)
-            *frames, tool = self._walk(np.ascontiguousarray(Q[block].T))
-            for i, (frame, (_, kind)) in enumerate(zip(frames, self.joints, strict=True)):
-                if kind == "prismatic":
-                    jacobians[block, :3, i] = frame[2].T
-                else:
-                    jacobians[block, :3, i] = cross(frame[2], tool[3] - frame[3]).T
-                    jacobians[block, 3:, i] = frame[2].T
-        return jacobians
+        J = np.zeros((len(Q), 6, len(self.chain.joints)))
+        for rows, frames, tool in self.chain.blocks(Q, BLOCK):
+            self._write_jacobian(J[rows], frames, tool)
+        return J
+
+    def fk_and_jacobian_batch(self, Q: Any) -> Any:
+        T, J = new_poses(len(Q)), np.zeros((len(Q), 6, len(self.chain.joints)))
+        for rows, frames, tool in self.chain.blocks(Q, BLOCK):
+            write_pose(T[rows], tool)
+            self._write_jacobian(J[rows], frames, tool)
+        return T, J
+
+    def hessian_batch(self, Q: Any) -> Any:
+        """Column k turns what comes after it: w_k x v_i, which is symmetric, and w_k x w_i."""
+        n = len(self.chain.joints)
+        H = np.empty((len(Q), 6, n, n))
+        for rows, frames, tool in self.chain.blocks(Q, HESSIAN_BLOCK):
+            block = np.zeros((6, n, n, len(Q[rows])))
+            twists = list(self.chain.twists(frames, tool))
+            for k in (k for k in range(n) if twists[k][1] is not None):
+                for i in range(k, n):
+                    v, w = twists[i]
+                    block[:3, i, k] = block[:3, k, i] = cross(twists[k][1], v)
+                    if i > k and w is not None:
+                        block[3:, i, k] = cross(twists[k][1], w)
+            H[rows] = block.transpose(3, 0, 1, 2)
+        return H

@@ -7,8 +7,13 @@ from typing import Any
 import numpy as np
 
 from peers import Peer, register
-from problem import Problem
+from problem import BATCH, Problem
 from thing_dh import folded
+
+
+def in_order(H: Any) -> Any:
+    """Pinocchio's column-major Hessian, which the bindings label row-major."""
+    return H.reshape(H.shape[::-1]).transpose()
 
 
 @register
@@ -32,20 +37,54 @@ class Pinocchio(Peer):
         frame = pin.Frame("tool", joint, 0, pin.SE3(tool), pin.FrameType.OP_FRAME)
         self.tool = model.addFrame(frame)
         self.data = model.createData()
+        self.poses = np.empty((BATCH, 4, 4))
         self.axes = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
 
     def fk(self, q: Any) -> Any:
         self.pin.forwardKinematics(self.model, self.data, q)
         return self.pin.updateFramePlacement(self.model, self.data, self.tool).homogeneous
 
+    def jacobian(self, q: Any) -> Any:
+        return self.pin.computeFrameJacobian(self.model, self.data, q, self.tool, self.axes)
+
+    def fk_and_jacobian(self, q: Any) -> Any:
+        self.pin.computeJointJacobians(self.model, self.data, q)
+        T = self.pin.updateFramePlacement(self.model, self.data, self.tool).homogeneous
+        return T, self.pin.getFrameJacobian(self.model, self.data, self.tool, self.axes)
+
+    def hessian(self, q: Any) -> Any:
+        self.pin.computeJointJacobians(self.model, self.data, q)
+        self.pin.computeJointKinematicHessians(self.model, self.data)
+        return self.pin.getFrameKinematicHessian(self.model, self.data, self.tool, self.axes)
+
+    def jacobian_dot(self, x: Any) -> Any:
+        self.pin.computeJointJacobiansTimeVariation(self.model, self.data, *x)
+        self.pin.updateFramePlacement(self.model, self.data, self.tool)
+        return self.pin.getFrameJacobianTimeVariation(self.model, self.data, self.tool, self.axes)
+
+    def acceleration(self, x: Any) -> Any:
+        self.pin.forwardKinematics(self.model, self.data, *x)
+        return self.pin.getFrameClassicalAcceleration(
+            self.model, self.data, self.tool, self.axes
+        ).vector
+
     def fk_batch(self, Q: Any) -> Any:
-        poses = np.empty((len(Q), 4, 4))
+        return self.fk_batch_out(Q, np.empty((len(Q), 4, 4)))
+
+    def fk_batch_out(self, Q: Any, out: Any = None) -> Any:
+        poses = self.poses if out is None else out
         for pose, q in zip(poses, Q, strict=True):
             pose[:] = self.fk(q)
         return poses
 
-    def jacobian(self, q: Any) -> Any:
-        return self.pin.computeFrameJacobian(self.model, self.data, q, self.tool, self.axes)
+    def fk_quaternion_batch(self, Q: Any) -> Any:
+        """SE3ToXYZQUAT, whose order is x, y, z, w."""
+        out = np.empty((len(Q), 7))
+        for row, q in zip(out, Q, strict=True):
+            self.pin.forwardKinematics(self.model, self.data, q)
+            T = self.pin.updateFramePlacement(self.model, self.data, self.tool)
+            row[:] = self.pin.SE3ToXYZQUAT(T)
+        return out
 
     def jacobian_batch(self, Q: Any) -> Any:
         jacobians = np.empty((len(Q), 6, self.model.nv))
@@ -53,14 +92,25 @@ class Pinocchio(Peer):
             J[:] = self.jacobian(q)
         return jacobians
 
-    def hessian(self, q: Any) -> Any:
-        self.pin.computeJointJacobians(self.model, self.data, q)
-        self.pin.computeJointKinematicHessians(self.model, self.data)
-        return self.pin.getFrameKinematicHessian(self.model, self.data, self.tool, self.axes)
+    def fk_and_jacobian_batch(self, Q: Any) -> Any:
+        poses, jacobians = np.empty((len(Q), 4, 4)), np.empty((len(Q), 6, self.model.nv))
+        for T, J, q in zip(poses, jacobians, Q, strict=True):
+            T[:], J[:] = self.fk_and_jacobian(q)
+        return poses, jacobians
+
+    def hessian_batch(self, Q: Any) -> Any:
+        hessians = np.empty((len(Q), 6, self.model.nv, self.model.nv))
+        for H, q in zip(hessians, Q, strict=True):
+            H[:] = in_order(self.hessian(q))
+        return hessians
 
     def answer(self, work: str, result: Any) -> Any:
-        if work == "hessian":  # column-major data, which the bindings label row-major
-            return result.reshape(result.shape[::-1]).transpose()
+        if work == "hessian":
+            return in_order(result)
+        if work == "fk_quaternion_batch":
+            w_first = result[:, [0, 1, 2, 6, 3, 4, 5]]
+            w_first[w_first[:, 3] < 0.0, 3:] *= -1.0
+            return w_first
         return result
 
     def step(self, x: Any) -> Any:
