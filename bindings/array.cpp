@@ -15,10 +15,12 @@ namespace {
 // rotations and rigid transforms of SciPy, quaternions of Pinocchio, several poses of spatialmath.
 // (Pinocchio's SE3 and a single pose of spatialmath are arrays to numpy already.)
 py::object as_matrix(py::handle argument) {
-  for (const char* method : {"as_matrix", "toRotationMatrix"}) {
-    if (py::hasattr(argument, method)) {
-      return argument.attr(method)();
-    }
+  if (py::hasattr(argument, "as_matrix")) {
+    return argument.attr("as_matrix")();
+  }
+  // The rotation of a zero quaternion would be the identity.
+  if (py::hasattr(argument, "toRotationMatrix") && argument.attr("norm")().cast<double>() > 0.5) {
+    return argument.attr("toRotationMatrix")();
   }
   if (py::hasattr(argument, "isSE") && py::hasattr(argument, "A")) {
     return argument.attr("A");
@@ -27,10 +29,13 @@ py::object as_matrix(py::handle argument) {
 }
 
 // A conversion that loses nothing a user could have meant: numbers that are real, of any width.
-py::array to_float64(py::handle argument, const char* name) {
+py::array to_float64(py::handle argument, const char* name, bool matrix) {
   try {
     const py::module_ numpy = py::module_::import("numpy");
-    const auto array = numpy.attr("asarray")(as_matrix(argument)).cast<py::array>();
+    const auto array = numpy
+                           .attr("asarray")(matrix ? as_matrix(argument)
+                                                   : py::reinterpret_borrow<py::object>(argument))
+                           .cast<py::array>();
     const char kind = array.dtype().kind();
     if (kind != 'f' && kind != 'i' && kind != 'u') {
       throw InvalidArgument(name, "dtype " + std::string(py::str(array.dtype())), "real numbers");
@@ -70,7 +75,7 @@ void check_finite(const Batch& batch, const char* name) {
 }
 
 // The array behind an argument: itself if it is C-ordered float64, else a converted copy.
-py::object as_float64(py::handle argument, const char* name) {
+py::object as_float64(py::handle argument, const char* name, bool matrix = false) {
   const auto& api = py::detail::npy_api::get();
   static PyObject* const float64 = py::dtype::of<double>().release().ptr();
   if (api.PyArray_Check_(argument.ptr())) {
@@ -81,7 +86,7 @@ py::object as_float64(py::handle argument, const char* name) {
       return py::reinterpret_borrow<py::object>(argument);
     }
   }
-  return to_float64(argument, name);
+  return to_float64(argument, name, matrix);
 }
 
 }  // namespace
@@ -89,7 +94,7 @@ py::object as_float64(py::handle argument, const char* name) {
 Batch read(py::handle argument, const char* name, const std::vector<py::ssize_t>& item,
            bool batches, Finite finite) {
   Batch batch;
-  batch.owner = as_float64(argument, name);
+  batch.owner = as_float64(argument, name, item.size() == 2);
   const auto* array = py::detail::array_proxy(batch.owner.ptr());
   const auto dimensions = static_cast<py::ssize_t>(item.size());
   const py::ssize_t lead = array->nd - dimensions;

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 import thing_kin as tk
-from thing_kin import lie
+from thing_kin import interop, lie
 from thing_kin.kdl import KdlChain
 
 ROBOT = tk.robots.thing()
@@ -154,7 +154,22 @@ TASK_PRIORITY = [
         infinite=True,
     ),
 ]
-ARGUMENTS = [*CHAIN, *MOTION, *LIE, *LINALG, *MODEL, *TASK_PRIORITY]
+XYZW = np.array([0.5, -0.5, 0.5, 0.5])
+PIN_THING = interop.to_pinocchio(ROBOT)
+INTEROP = [
+    Argument("from_pose", "T", T, interop.from_pose),
+    Argument("quaternion", "T", T[:3, :3], lambda v: interop.quaternion(v, order="xyzw")),
+    Argument("rotation", "quaternion", XYZW, lambda v: interop.rotation(v, order="xyzw")),
+    Argument(
+        "pose_from_quaternion",
+        "p",
+        XI[:3],
+        lambda v: interop.pose_from_quaternion(v, XYZW, order="xyzw"),
+    ),
+    Argument("PinocchioModel", "q", Q, PIN_THING.q),
+    Argument("PinocchioModel", "v", Q, PIN_THING.from_v),
+]
+ARGUMENTS = [*INTEROP, *CHAIN, *MOTION, *LIE, *LINALG, *MODEL, *TASK_PRIORITY]
 
 # None means "not given" to these.
 OPTIONAL = {"damping", "mount", "rpy", "null_motion", "lower", "upper", "step_limit"} | {

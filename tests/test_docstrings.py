@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import pytest
 
 import thing_kin as tk
-from thing_kin import kdl, lie, robots
+from thing_kin import interop, kdl, lie, robots
 
-MODULES = (tk, lie, robots, kdl)
+MODULES = (tk, lie, robots, kdl, interop)
 
 
 def public_things() -> Iterator[tuple[str, object]]:
@@ -69,6 +69,10 @@ def test_it_has_a_docstring(path: str) -> None:
 
 @pytest.mark.parametrize("path", WITH_EXAMPLES)
 def test_its_examples_are_true(path: str) -> None:
+    if path == "thing_kin.interop.to_spatialmath":
+        pytest.importorskip("spatialmath")
+    if path == "thing_kin.interop.to_scipy":
+        pytest.importorskip("scipy", minversion="1.16")  # the first with RigidTransform
     text = text_of(path)
     assert "Examples\n--------\n" in inspect.cleandoc(text)
     examples = doctest.DocTestParser().get_doctest(text, {}, path, None, 0)

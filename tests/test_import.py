@@ -67,3 +67,9 @@ def test_using_it_loads_no_more() -> None:
         "tk.TaskPriority(robot, [tk.PoseTask()]).step(q, [robot.fk(q)])"
     )
     assert foreign(modules_after(use)) == foreign(modules_after("import thing_kin, numpy.random"))
+
+
+def test_interop_loads_no_peer() -> None:
+    assert "thing_kin.interop" not in modules_after("import thing_kin")
+    loaded = foreign(modules_after("import thing_kin.interop"))
+    assert loaded == foreign(modules_after("import thing_kin, numpy, numpy.typing"))
