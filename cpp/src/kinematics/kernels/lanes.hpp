@@ -31,22 +31,23 @@ inline Lanes select(const LanesInt& mask, const Lanes& a, const Lanes& b) {
   return as_numbers((mask & as_bits(a)) | (~mask & as_bits(b)));
 }
 
-/// Whether one of `count` numbers is larger than `limit` or smaller than -limit.
+/// Whether one of `count` numbers is larger than `limit` or smaller than -limit, or NaN. Without a
+/// sign, the bits of numbers are ordered as the numbers are.
 inline bool any_beyond(const double* numbers, long count, double limit) {
-  Lanes largest = splat(0.0);
+  const LanesInt most = as_bits(splat(limit));
+  LanesInt beyond{};  // negative where one is
   long i = 0;
   for (; i + kLanes <= count; i += kLanes) {
-    largest = larger(absolute(load(numbers + i)), largest);
+    beyond |= most - as_bits(absolute(load(numbers + i)));
   }
+  long long found = 0;
   for (; i < count; ++i) {
-    largest[0] = numbers[i] > largest[0] ? numbers[i] : largest[0];
-    largest[0] = -numbers[i] > largest[0] ? -numbers[i] : largest[0];
+    found |= most[0] - as_bits(absolute(splat(numbers[i])))[0];
   }
-  bool found = false;
   for (int lane = 0; lane < kLanes; ++lane) {
-    found |= largest[lane] > limit;
+    found |= beyond[lane];
   }
-  return found;
+  return found < 0;
 }
 
 /// Every stride-th number from `from` on.
