@@ -139,6 +139,20 @@ def test_out_is_filled_and_returned(method: str, count: int | None) -> None:
     assert_array_equal(out, function(Q))
 
 
+@pytest.mark.parametrize("count", [None, 5])
+def test_out_of_two_results_is_a_pair(count: int | None) -> None:
+    Q = THING.random(count, rng=3)
+    pair = tuple(np.empty(shape_of(method, count)) for method in ("fk", "jacobian"))
+    T, J = THING.fk_and_jacobian(Q, out=pair)
+    assert T is pair[0]
+    assert J is pair[1]
+    assert_close(T, THING.fk(Q), atol=4e-15)
+    assert_close(J, THING.jacobian(Q), atol=4e-15)
+    for bad in (pair[0], pair[:1], [*pair]):
+        with pytest.raises(ValueError, match=r"^out: got .*, expected a tuple of two arrays"):
+            THING.fk_and_jacobian(Q, out=bad)
+
+
 def test_out_of_a_float_result_is_an_array() -> None:
     q = THING.random(rng=4)
     out = np.empty(())

@@ -6,6 +6,37 @@
 
 namespace thing_kin::python {
 
+/// An argument `out` of two results: None or a pair of arrays.
+class OutPair : public py::object {
+ public:
+  PYBIND11_OBJECT_DEFAULT(OutPair, object, [](PyObject*) { return 1; })
+
+  OutArray operator[](py::ssize_t i) const {
+    if (is_none()) {
+      return py::reinterpret_borrow<OutArray>(py::none());
+    }
+    if (PyTuple_Check(ptr()) == 0 || PyTuple_Size(ptr()) != 2) {
+      throw InvalidArgument("out", py::str(py::type::of(*this).attr("__name__")),
+                            "a tuple of two arrays");
+    }
+    return py::reinterpret_borrow<OutArray>(PyTuple_GetItem(ptr(), i));
+  }
+};
+
+}  // namespace thing_kin::python
+
+namespace pybind11::detail {
+
+template <>
+struct handle_type_name<thing_kin::python::OutPair> {
+  static constexpr auto name = const_name(
+      "tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]] | None");
+};
+
+}  // namespace pybind11::detail
+
+namespace thing_kin::python {
+
 namespace {
 
 Jacobian jacobian_at(const Chain& c, const double* q, const MovingPoint& of,
@@ -41,13 +72,15 @@ Array jacobian(const Chain& c, const ArrayLike& q, const std::string& frame, con
 
 py::typing::Tuple<Array, Array> fk_and_jacobian(const Chain& c, const ArrayLike& q,
                                                 const std::string& frame, const FrameLike& of,
-                                                const ThreadCount& threads) {
+                                                const OutPair& out, const ThreadCount& threads) {
   const ReferenceFrame reference = reference_frame_from_string(frame);
   const int index = read_frame(c, of, "of");
-  const Batch batch = read_vectors(q, "q", c.dof());
+  Batch batch = read_vectors(q, "q", c.dof());
   const int count = read_threads(threads);
-  Array T = make_array(batch, {4, 4});
-  Array J = make_array(batch, {6, c.dof()});
+  Array T = make_output(batch, {4, 4}, out[0]);
+  Array J = make_output(batch, {6, c.dof()}, out[1]);
+  detach(batch, T);
+  detach(batch, J);
   double* const T_out = T.mutable_data();
   double* const J_out = J.mutable_data();
   if (batch.single) {
@@ -101,7 +134,8 @@ Examples
 array([0., 2., 0., 0., 0., 1.])
 )");
   chain.def("fk_and_jacobian", fk_and_jacobian, py::arg("q"), py::arg("frame") = "world_aligned",
-            py::arg("of") = py::none(), py::kw_only(), py::arg("threads") = py::none(),
+            py::arg("of") = py::none(), py::kw_only(), py::arg("out") = py::none(),
+            py::arg("threads") = py::none(),
             R"(Pose and Jacobian of a frame, for little more than the price of one.
 
 Parameters
@@ -111,6 +145,8 @@ frame : str
     As in jacobian: 'world_aligned', 'body' or 'world'.
 of : str or int, optional
     The frame, from `frames`; default: the last, the tool.
+out : tuple of two float64 arrays in C order, shaped as T and J, optional
+    Where the results go, and what is returned then. They must not share memory.
 threads : int, optional
     At most so many; default: one, and for large batches all processors. The result is the same.
 

@@ -617,7 +617,7 @@ class Chain:
         >>> robot.fk_all(np.zeros(6)).shape == (len(robot.frames), 4, 4)
         True
         """
-    def fk_and_jacobian(self, q: numpy.typing.ArrayLike, frame: str = 'world_aligned', of: str | int | None = None, *, threads: typing.SupportsIndex | None = None) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
+    def fk_and_jacobian(self, q: numpy.typing.ArrayLike, frame: str = 'world_aligned', of: str | int | None = None, *, out: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]] | None = None, threads: typing.SupportsIndex | None = None) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
         """
         Pose and Jacobian of a frame, for little more than the price of one.
         
@@ -628,6 +628,8 @@ class Chain:
             As in jacobian: 'world_aligned', 'body' or 'world'.
         of : str or int, optional
             The frame, from `frames`; default: the last, the tool.
+        out : tuple of two float64 arrays in C order, shaped as T and J, optional
+            Where the results go, and what is returned then. They must not share memory.
         threads : int, optional
             At most so many; default: one, and for large batches all processors. The result is the same.
         
