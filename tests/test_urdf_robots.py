@@ -25,8 +25,20 @@ def configurations(chain: tk.Chain, rng: np.random.Generator, count: int) -> np.
 
 
 def assert_as_pinocchio(chain: tk.Chain, oracle: PinocchioTree, Q: np.ndarray) -> None:
-    assert_close(chain.fk(Q), np.stack([oracle.fk(q) for q in Q]), atol=ATOL)
-    assert_close(chain.jacobian(Q), np.stack([oracle.jacobian(q) for q in Q]), atol=ATOL)
+    """At every level of instructions, as a batch and one by one."""
+    T = np.stack([oracle.fk(q) for q in Q])
+    J = np.stack([oracle.jacobian(q) for q in Q])
+    best = tk.simd_level()
+    levels = ("baseline", "avx2", "avx512")
+    try:
+        for level in levels[: levels.index(best) + 1]:
+            tk.use_simd_level(level)
+            assert_close(chain.fk(Q), T, atol=ATOL)
+            assert_close(chain.jacobian(Q), J, atol=ATOL)
+            assert_close(np.stack([chain.fk(q) for q in Q]), T, atol=ATOL)
+            assert_close(np.stack([chain.jacobian(q) for q in Q]), J, atol=ATOL)
+    finally:
+        tk.use_simd_level(best)
 
 
 @pytest.mark.parametrize("block", range(10))
