@@ -71,7 +71,8 @@ Array map_together(Batches<K>& batches, std::initializer_list<py::ssize_t> item,
   double* const to = out.mutable_data();
   const py::ssize_t stride = longest->count > 0 ? out.size() / longest->count : 0;
   const auto compute = [&](std::size_t first, std::size_t last) {
-    for (auto i = static_cast<py::ssize_t>(first); i < static_cast<py::ssize_t>(last); ++i) {
+    for (std::size_t row = first; row < last; ++row) {
+      const auto i = static_cast<py::ssize_t>(row);
       std::array<const double*, K> in;
       for (std::size_t k = 0; k < K; ++k) {
         in[k] = batches[k].item(batches[k].single ? 0 : i);

@@ -245,6 +245,7 @@ Chain from_urdf(std::string_view text, const UrdfOptions& options) {
   description.root = path.base;
   if (!path.steps.empty()) {
     std::vector<const UrdfJoint*> joints;
+    joints.reserve(path.steps.size());
     for (const UrdfStep& step : path.steps) {
       joints.push_back(step.joint);
     }
