@@ -78,10 +78,10 @@ void improve(const IkProblem& problem, const IkMeasure& measure, IkPoint& point,
     Jacobian J;
     place_joints(problem.chain, point.q.data(), posture);
     geometric_jacobian(problem.chain, posture, problem.frame, ReferenceFrame::kWorldAligned, J);
-    problem.residual.weigh(point.value, J);
+    const JointVector way = part * measure.descent(point.q);
     IkPoint next = point;
-    take_damped_step(J, point.value.e, measure.mobility(), part * measure.descent(point.q),
-                     {1e-12, kLargestTurn}, problem.box, next.q);
+    take_damped_step(J, problem.residual.derivative(point.value), point.value.e, measure.mobility(),
+                     way.data(), {1e-12, kLargestTurn}, problem.box, next.q);
     const bool reached = descend(problem, kReturn, next, iterations);
     const double gain = value - measure(next.q);
     if (!reached || !(gain > 0.0)) {

@@ -3,6 +3,7 @@
 
 #include "kernels.hpp"
 
+#include "damped.hpp"
 #include "quaternion.hpp"
 #include "walk.hpp"
 
@@ -175,9 +176,33 @@ void jacobians(const Skeleton& skeleton, const SkeletonFrame& frame, const doubl
   });
 }
 
+void damped_inverse(const double* J, const double* mobility, int n, const double* factors,
+                    double lambda, const double* e, double* dq) noexcept {
+  Matrix3 linear;
+  Matrix3 angular;
+  read(factors, linear);
+  read(factors + 12, angular);
+  double A[6][6];
+  normal_matrix(J, mobility, n, linear, angular, lambda, A);
+  double y[6] = {e[0], e[1], e[2], e[3], e[4], e[5]};
+  solve_symmetric(A, y);
+  double f[6];  // what y is before the factors
+  for (int k = 0; k < 3; ++k) {
+    const double* L = factors + 4 * k;
+    const double* R = L + 12;
+    f[k] = L[0] * y[0] + L[1] * y[1] + L[2] * y[2];
+    f[3 + k] = R[0] * y[3] + R[1] * y[4] + R[2] * y[5];
+  }
+  for (int j = 0; j < n; ++j) {
+    const double* c = J + 6 * j;
+    dq[j] = mobility[j] * ((c[0] * f[0] + c[1] * f[1] + c[2] * f[2]) +
+                           (c[3] * f[3] + c[4] * f[4] + c[5] * f[5]));
+  }
+}
+
 }  // namespace
 
 extern const Kernels kKernels;
-const Kernels kKernels{place, pose, jacobian, poses, jacobians};
+const Kernels kKernels{place, pose, jacobian, poses, jacobians, damped_inverse};
 
 }  // namespace thing_kin::THING_KIN_LEVEL

@@ -29,6 +29,11 @@ struct Kernels {
   /// is null.
   void (*jacobians)(const Skeleton& skeleton, const SkeletonFrame& frame, const double* q,
                     long count, Reference reference, double* T, double* J) noexcept;
+
+  /// dq of damped_inverse.hpp; J (6, n) and `factors`, two (3, 3), in column order, those of the
+  /// factors padded to four.
+  void (*damped_inverse)(const double* J, const double* mobility, int n, const double* factors,
+                         double lambda, const double* e, double* dq) noexcept;
 };
 
 /// Those of the level in use (core/simd.hpp).
