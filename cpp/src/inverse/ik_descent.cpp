@@ -15,7 +15,7 @@ namespace {
 // is poor; at the solution only enough to keep the normal matrix definite in rounding, so that
 // convergence stays quadratic, and fast at a singularity.
 constexpr double kDamping = 0.05;
-constexpr double kLeastDamping = 1e-12;
+constexpr double kLeastDamping = 1e-16;
 
 constexpr double kLargestTurn = std::numbers::pi / 2;
 

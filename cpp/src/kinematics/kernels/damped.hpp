@@ -4,13 +4,13 @@
 
 namespace thing_kin::THING_KIN_LEVEL {
 
-/// x <- A^-1 x by A = L D L^T, of which the lower triangle is given in rows and destroyed. Without
-/// pivoting: A is positive definite.
-inline void solve_symmetric(double A[6][6], double x[6]) {
+/// x <- A^-1 x by A = L D L^T, of which the lower triangle is given in rows and destroyed. No
+/// eigenvalue is below `least` > 0, and so but for rounding no pivot is.
+inline void solve_symmetric(double A[6][6], double least, double x[6]) {
   double inverse[6];
 #pragma GCC unroll 6
   for (int k = 0; k < 6; ++k) {
-    inverse[k] = 1.0 / A[k][k];
+    inverse[k] = 1.0 / (A[k][k] > least ? A[k][k] : least);
 #pragma GCC unroll 6
     for (int i = k + 1; i < 6; ++i) {
       const double factor = A[i][k] * inverse[k];

@@ -185,7 +185,7 @@ void damped_inverse(const double* J, const double* mobility, int n, const double
   double A[6][6];
   normal_matrix(J, mobility, n, linear, angular, lambda, A);
   double y[6] = {e[0], e[1], e[2], e[3], e[4], e[5]};
-  solve_symmetric(A, y);
+  solve_symmetric(A, lambda, y);
   double f[6];  // what y is before the factors
   for (int k = 0; k < 3; ++k) {
     const double* L = factors + 4 * k;
