@@ -11,7 +11,7 @@ namespace thing_kin {
 
 namespace {
 
-constexpr int kMostSteps = 60;
+constexpr int kMostSteps = 100;
 constexpr double kLargestTurn = std::numbers::pi / 4;
 
 // A relative gain below this, or a step shortened so often, is the end.
@@ -90,7 +90,7 @@ void improve(const IkProblem& problem, const IkMeasure& measure, IkPoint& point,
     }
     point = next;
     value -= gain;
-    part = std::min(1.0, 2.0 * part);
+    part = std::min(measure.longest_step(), 2.0 * part);
     if (gain < kLeastGain * (std::abs(value) + kLeastGain)) {
       return;
     }
