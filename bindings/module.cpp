@@ -42,4 +42,5 @@ PYBIND11_MODULE(_core, m) {
   bind_differential_inverse(m);
   bind_task(m);
   bind_task_priority(m);
+  bind_closed_form_ik(m);
 }
