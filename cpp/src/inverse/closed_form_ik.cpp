@@ -6,6 +6,7 @@
 
 #include "closed_form_ik_polish.hpp"
 #include "closed_form_ik_subproblems.hpp"
+#include "thing_kin/kinematics/arc_tangent.hpp"
 #include "thing_kin/kinematics/batch.hpp"
 
 namespace thing_kin {
@@ -23,7 +24,7 @@ constexpr double kExact = 1e-9;        // m and rad: what "exact" promises
 constexpr double kAccurate = 1e-12;    // m and rad per m of distance: no need to polish
 constexpr double kPromising = 1e-5;    // an excess that polishing may still mend
 constexpr double kAtLimit = 1e-10;     // rad: rounding beyond a limit, put onto it
-constexpr double kSame = 1e-7;         // rad: rounding of a double root
+constexpr double kSame = 1e-6;         // rad: rounding of a double root
 constexpr double kSameClosest = 1e-4;  // rad: of a minimum
 constexpr double kAlike = 1e-6;        // relative: equally close
 constexpr int kMost = ClosedFormSolutions::kMost;
@@ -71,6 +72,7 @@ class ClosedFormRun {
       return;
     }
     answer();
+    measure();
     count_ = branches_.count;
     for (int i = 0; i < count_; ++i) {
       set_row(i);
@@ -125,6 +127,21 @@ class ClosedFormRun {
     }
   }
 
+  /// The canonical angles of all branches, in radians.
+  void measure() noexcept {
+    double sine[6 * kMost];
+    double cosine[6 * kMost];
+    for (int i = 0; i < branches_.count; ++i) {
+      for (int j = 0; j < 6; ++j) {
+        const Branch& branch = branches_.branch[static_cast<std::size_t>(i)];
+        const closed_form::Angle& angle = branch.angle[static_cast<std::size_t>(j)];
+        sine[6 * i + j] = angle.sin;
+        cosine[6 * i + j] = angle.cos;
+      }
+    }
+    arc_tangents(sine, cosine, 6L * branches_.count, angles_);
+  }
+
   void set_row(int i) noexcept {
     const Branch& branch = branches_.branch[static_cast<std::size_t>(i)];
     double* to = q(i);
@@ -134,10 +151,9 @@ class ClosedFormRun {
         to[places[j]] = base_[j];
       }
     }
+    const double* angle = angles_ + 6 * i;
     for (std::size_t j = 0; j < 6; ++j) {
-      const closed_form::Angle& angle = branch.angle[j];
-      to[ik_.joint_[j]] =
-          ik_.angle_[j].sign * (std::atan2(angle.sin, angle.cos) - ik_.angle_[j].offset);
+      to[ik_.joint_[j]] = ik_.angle_[j].sign * (angle[j] - ik_.angle_[j].offset);
     }
     Row& row = rows_[i];
     row = Row{};
@@ -345,6 +361,7 @@ class ClosedFormRun {
   int count_ = 0;
   Branches branches_;
   Row rows_[kMost];
+  double angles_[6 * kMost];
   double q_[kMost * kMostJoints];
 };
 

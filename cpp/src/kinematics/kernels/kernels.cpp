@@ -3,6 +3,7 @@
 
 #include "kernels.hpp"
 
+#include "arc_tangent.hpp"
 #include "quaternion.hpp"
 #include "walk.hpp"
 
@@ -175,9 +176,27 @@ void jacobians(const Skeleton& skeleton, const SkeletonFrame& frame, const doubl
   });
 }
 
+void arc_tangents(const double* sine, const double* cosine, long count, double* angle) noexcept {
+  long i = 0;
+  for (; i + kLanes <= count; i += kLanes) {
+    store(arc_tangent(load(sine + i), load(cosine + i)), angle + i);
+  }
+  if (i < count) {
+    double filled[3][kLanes] = {};
+    for (long k = i; k < count; ++k) {
+      filled[0][k - i] = sine[k];
+      filled[1][k - i] = cosine[k];
+    }
+    store(arc_tangent(load(filled[0]), load(filled[1])), filled[2]);
+    for (long k = i; k < count; ++k) {
+      angle[k] = filled[2][k - i];
+    }
+  }
+}
+
 }  // namespace
 
 extern const Kernels kKernels;
-const Kernels kKernels{place, pose, jacobian, poses, jacobians};
+const Kernels kKernels{place, pose, jacobian, poses, jacobians, arc_tangents};
 
 }  // namespace thing_kin::THING_KIN_LEVEL

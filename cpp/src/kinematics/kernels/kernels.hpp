@@ -29,6 +29,10 @@ struct Kernels {
   /// is null.
   void (*jacobians)(const Skeleton& skeleton, const SkeletonFrame& frame, const double* q,
                     long count, Reference reference, double* T, double* J) noexcept;
+
+  /// Angles of `count` pairs.
+  void (*arc_tangents)(const double* sine, const double* cosine, long count,
+                       double* angle) noexcept;
 };
 
 /// Those of the level in use (core/simd.hpp).
