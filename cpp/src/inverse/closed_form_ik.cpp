@@ -78,9 +78,10 @@ class ClosedFormRun {
       set_row(i);
     }
     keep_exact();
-    const bool reachable = count_ > 0;
+    bool reachable = count_ > 0;
     if (!reachable && options_.closest) {
       keep_closest();
+      reachable = count_ > 0 && rows_[0].off.within(kExact);
     }
     out.status = reachable ? ClosedFormStatus::kSolved : ClosedFormStatus::kUnreachable;
     leave_out_beyond_limits(out);

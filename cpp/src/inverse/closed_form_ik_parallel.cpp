@@ -8,6 +8,8 @@
 // Robots do, or are parallel, one equation has angle 1 alone. Then angle 6, the sum of angles 2, 3
 // and 4, and the two links in the plane.
 
+#include <algorithm>
+
 #include "closed_form_ik_subproblems.hpp"
 
 namespace thing_kin::closed_form {
@@ -58,23 +60,54 @@ void add_elbow(const ParallelArm& arm, const Question& question, const Vector2d&
   }
 }
 
+Vector2d turned(const Angle& angle, const Vector2d& v) {
+  return {angle.cos * v[0] - angle.sin * v[1], angle.sin * v[0] + angle.cos * v[1]};
+}
+
+/// Axes 4 and 6 in line: the sum may be any, and angle 6 goes with it; but only where joint 4 is
+/// within the elbow's reach. If it is not, the nearest sum at which it is, with the elbow stretched
+/// or folded.
+void move_into_reach(const ParallelArm& arm, const Question& question, const Vector2d& wrist,
+                     const Vector2d& hand, double sense, Angle& sum, Angle& angle6) {
+  const double r = (wrist - turned(sum, hand)).norm();
+  const double stretched = arm.upper + arm.lower;
+  const double bound = std::clamp(r, std::abs(arm.upper - arm.lower), stretched);
+  if (bound == r) {
+    return;
+  }
+  // |wrist - e^(i sum) hand| = bound
+  const Vector2d a(2.0 * wrist.dot(hand), 2.0 * (wrist[1] * hand[0] - wrist[0] * hand[1]));
+  const Roots roots =
+      solve_linear(a[0], a[1], wrist.squaredNorm() + hand.squaredNorm() - bound * bound,
+                   question.length * question.length);
+  if (roots.free || roots.excess > 0.0) {
+    return;
+  }
+  const auto turn = [&](const Angle& root) { return root * sum.inverse(); };
+  const bool second = turn(roots.angle[1]).cos > turn(roots.angle[0]).cos;
+  const Angle by = turn(roots.angle[second ? 1 : 0]);
+  sum = sum * by;
+  angle6 = angle6 * (sense > 0.0 ? by.inverse() : by);
+}
+
 /// The rest from angles 1 and 5.
 void add(const ParallelArm& arm, const Question& question, const Matrix3d& frame, const Vector3d& v,
          Branch& branch, Branches& out) {
   if (std::abs(branch.angle[4].sin) <= kSingularAngle && !arm.parallel56) {
     mark(branch, ArmSingularity::kWrist);
   }
-  Angle sum;
-  complete_wrist(arm.wrist, frame, question, v, branch, sum);
+  const bool determined = find_angle6(arm.wrist, question, v, branch.angle[4], branch.angle[5]);
+  Angle sum = angle4(arm.wrist, frame, question.R, branch.angle[5]);
   Vector2d hand = arm.forearm;
   if (arm.offset56 != 0.0) {
     hand += branch.angle[4].cos * arm.forearm_cos + branch.angle[4].sin * arm.forearm_sin;
   }
-  Vector2d reach(frame.col(0).dot(question.p), frame.col(1).dot(question.p));
-  reach -= arm.start;
-  reach[0] -= sum.cos * hand[0] - sum.sin * hand[1];
-  reach[1] -= sum.sin * hand[0] + sum.cos * hand[1];
-  add_elbow(arm, question, reach, sum, branch, out);
+  const Vector2d wrist =
+      Vector2d(frame.col(0).dot(question.p), frame.col(1).dot(question.p)) - arm.start;
+  if (!determined) {
+    move_into_reach(arm, question, wrist, hand, v[2], sum, branch.angle[5]);
+  }
+  add_elbow(arm, question, wrist - turned(sum, hand), sum, branch, out);
 }
 
 /// Axis 4 seen from the canonical tool.

@@ -164,7 +164,8 @@ void add(const SphericalArm& arm, const Question& question, const Pair& pair, Br
     branch.angle[4] = angle;
     branch.excess = std::max(start.excess, bend.excess);
     branch.singularity = named(start.singularity, std::abs(angle.sin), ArmSingularity::kWrist);
-    complete_wrist(arm.wrist, frame, question, axis4, branch, branch.angle[3]);
+    find_angle6(arm.wrist, question, axis4, angle, branch.angle[5]);
+    branch.angle[3] = angle4(arm.wrist, frame, question.R, branch.angle[5]);
   }
 }
 

@@ -130,26 +130,27 @@ struct WristBend {
 
 WristBend solve_bend(const Wrist& wrist, const Eigen::Vector3d& v) noexcept;
 
-/// Angles 6 and 4 that go with angle 5. `frame4`: of axis 4 with its own joint at zero, `R`: of the
-/// canonical tool. Angle 6 stays at the reference where axes 4 and 6 are in line.
-inline void complete_wrist(const Wrist& wrist, const Eigen::Matrix3d& frame4,
-                           const Question& question, const Eigen::Vector3d& v, Branch& branch,
-                           Angle& angle4) noexcept {
-  const Angle& bend = branch.angle[4];
-  const double wx = wrist.cos_beta * wrist.sin_alpha - wrist.sin_beta * wrist.cos_alpha * bend.cos;
-  const double wy = wrist.sin_beta * bend.sin;
-  const bool in_line = v[0] * v[0] + v[1] * v[1] <= kFree * kFree;
-  if (in_line || wx * wx + wy * wy <= kFree * kFree) {
-    branch.angle[5] = question.stay(5);
-  } else {
-    branch.angle[5] = normalized(wx * v[0] + wy * v[1], wy * v[0] - wx * v[1]);
+/// Angle 4 that goes with angles 5 and 6: axis 5 where the tool has it, seen from axis 4. `frame4`:
+/// of axis 4 with its own joint at zero; R: of the canonical tool.
+inline Angle angle4(const Wrist& wrist, const Eigen::Matrix3d& frame4, const Eigen::Matrix3d& R,
+                    const Angle& angle6) noexcept {
+  const Eigen::Vector3d axis5 = wrist.sin_alpha * (angle6.cos * R.col(0) - angle6.sin * R.col(1)) +
+                                wrist.cos_alpha * R.col(2);
+  return normalized(axis5.dot(frame4.col(0)), axis5.dot(frame4.col(1))) * wrist.from_axis5;
+}
+
+/// Angle 6 that goes with angle 5. `v`: axis 4 in the canonical tool. False where it is in line
+/// with axis 6: then the angle stays where it is best.
+inline bool find_angle6(const Wrist& wrist, const Question& question, const Eigen::Vector3d& v,
+                        const Angle& angle5, Angle& angle6) noexcept {
+  const double x = wrist.cos_beta * wrist.sin_alpha - wrist.sin_beta * wrist.cos_alpha * angle5.cos;
+  const double y = wrist.sin_beta * angle5.sin;
+  if (v[0] * v[0] + v[1] * v[1] <= kFree * kFree || x * x + y * y <= kFree * kFree) {
+    angle6 = question.stay(5);
+    return false;
   }
-  // Axis 5 where the tool has it, seen from axis 4.
-  const Angle& roll = branch.angle[5];
-  const Eigen::Vector3d axis5 =
-      wrist.sin_alpha * (roll.cos * question.R.col(0) - roll.sin * question.R.col(1)) +
-      wrist.cos_alpha * question.R.col(2);
-  angle4 = normalized(axis5.dot(frame4.col(0)), axis5.dot(frame4.col(1))) * wrist.from_axis5;
+  angle6 = normalized(x * v[0] + y * v[1], y * v[0] - x * v[1]);
+  return true;
 }
 
 }  // namespace thing_kin::closed_form
