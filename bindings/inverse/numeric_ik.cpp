@@ -95,7 +95,7 @@ struct Arguments {
             const std::string& weight_axes, double position_tolerance, double rotation_tolerance,
             const OptionalArray& joint_weights, const OptionalArray& max_step, bool nearest,
             const std::string& objective, int max_iterations, int max_restarts,
-            std::optional<double> deadline, const RandomLike& rng)
+            std::optional<double> deadline, const RandomLike& rng, bool closed_form)
       : part(part_from_string(task)) {
     options.weights.axes = weight_axes_from_string(weight_axes);
     read_weights(weights, part, options.weights);
@@ -109,6 +109,7 @@ struct Arguments {
     options.max_restarts = max_restarts;
     options.deadline = deadline.value_or(options.deadline);
     options.rng = read_rng(rng);
+    options.closed_form = closed_form;
   }
 };
 
@@ -230,7 +231,7 @@ void bind_numeric_ik(py::module_& m) {
            py::arg("objective") = to_string(defaults.objective),
            py::arg("max_iterations") = defaults.max_iterations,
            py::arg("max_restarts") = defaults.max_restarts, py::arg("deadline") = none,
-           py::arg("rng") = defaults.rng);
+           py::arg("rng") = defaults.rng, py::arg("closed_form") = defaults.closed_form);
   };
 
   py::class_<BoundIk> solver(m, "NumericIk", R"(Numerical inverse kinematics of any chain.
@@ -273,6 +274,8 @@ deadline : float, optional
     Seconds for one target. With it, results are no longer the same on any machine.
 rng : int or numpy.random.Generator
     Which restarts are tried.
+closed_form : bool
+    Whether an arm that has a closed form (see ik_all) restarts from its solutions.
 
 Raises
 ------
@@ -296,12 +299,12 @@ Examples
                     double position_tolerance, double rotation_tolerance,
                     const OptionalArray& joint_weights, const OptionalArray& max_step, bool nearest,
                     const std::string& objective, int max_iterations, int max_restarts,
-                    std::optional<double> deadline, const RandomLike& rng) {
+                    std::optional<double> deadline, const RandomLike& rng, bool closed_form) {
           return std::make_unique<BoundIk>(
               chain, frame,
               Arguments(chain, task, weights, weight_axes, position_tolerance, rotation_tolerance,
                         joint_weights, max_step, nearest, objective, max_iterations, max_restarts,
-                        deadline, rng));
+                        deadline, rng, closed_form));
         }),
         py::arg("chain"), py::kw_only(), extra...);
   });
@@ -349,11 +352,13 @@ IkBatchResult(4 of 4 reached)
            const std::string& weight_axes, double position_tolerance, double rotation_tolerance,
            const OptionalArray& joint_weights, const OptionalArray& max_step, bool nearest,
            const std::string& objective, int max_iterations, int max_restarts,
-           std::optional<double> deadline, const RandomLike& rng, const ThreadCount& threads) {
-          const BoundIk ik(chain, frame,
-                           Arguments(chain, task, weights, weight_axes, position_tolerance,
-                                     rotation_tolerance, joint_weights, max_step, nearest,
-                                     objective, max_iterations, max_restarts, deadline, rng));
+           std::optional<double> deadline, const RandomLike& rng, bool closed_form,
+           const ThreadCount& threads) {
+          const BoundIk ik(
+              chain, frame,
+              Arguments(chain, task, weights, weight_axes, position_tolerance, rotation_tolerance,
+                        joint_weights, max_step, nearest, objective, max_iterations, max_restarts,
+                        deadline, rng, closed_form));
           return solve(ik, target, seed, threads);
         },
         py::arg("chain"), py::arg("target"), py::arg("seed") = none, py::kw_only(), extra...,
@@ -368,7 +373,7 @@ target : (4, 4) or (N, 4, 4)
     In the root; (3,) for task='position', (3, 3) for task='orientation'.
 seed : (n,) or (N, n), optional
     Where to begin; brought into the limits first.
-frame, task, weights, weight_axes, position_tolerance, rotation_tolerance, joint_weights, max_step, nearest, objective, max_iterations, max_restarts, deadline, rng
+frame, task, weights, weight_axes, position_tolerance, rotation_tolerance, joint_weights, max_step, nearest, objective, max_iterations, max_restarts, deadline, rng, closed_form
     See NumericIk.
 threads : int, optional
     At most, for many targets; by default as many as pay. The result does not depend on it.

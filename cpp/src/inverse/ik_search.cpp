@@ -15,7 +15,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int kMostIterations = 40;
 
 // Where the target is certainly out of reach, more would only search for a closer pose.
-constexpr int kAttemptsOutOfReach = 16;
+constexpr int kHopelessAttempts = 16;
 
 // For the closest pose of a target out of reach.
 constexpr int kMostPolishing = 200;
@@ -71,17 +71,50 @@ IkSearch::IkSearch(const NumericIk& solver, const SE3& target, const double* see
       begin_(Clock::now()) {}
 
 IkResult IkSearch::run() noexcept {
-  bool reached = has_seed_ && attempt(seed_);
-  const bool out_of_reach =
-      !reached && problem_.residual.has_position() &&
-      solver_.reach_.beyond(problem_.box, problem_.residual.target().translation) > 0.0;
-  const int most = std::min(options_.max_restarts + 1,
-                            out_of_reach ? kAttemptsOutOfReach : std::numeric_limits<int>::max());
-  while (!reached && attempts_ < most && iterations_ < options_.max_iterations &&
-         elapsed() < options_.deadline) {
+  const bool closed = solver_.closed_form_.has_value();
+  bool reached = false;
+  if (options_.nearest && closed) {
+    reached = ask_closed_form() || attempt(seed_);
+  } else {
+    reached = (has_seed_ && attempt(seed_)) || (closed && has_more() && ask_closed_form());
+  }
+  if (!reached && problem_.residual.has_position()) {
+    const Eigen::Vector3d& target = problem_.residual.target().translation;
+    is_hopeless_ = is_hopeless_ || solver_.reach_.beyond(problem_.box, target) > 0.0;
+  }
+  while (!reached && has_more() && !(is_hopeless_ && attempts_ >= kHopelessAttempts)) {
     reached = restart();
   }
   return reached ? found() : failed();
+}
+
+bool IkSearch::has_more() const noexcept {
+  return attempts_ <= options_.max_restarts && iterations_ < options_.max_iterations &&
+         elapsed() < options_.deadline;
+}
+
+// Its solutions come nearest to the seed first; where there is none, they are the closest poses.
+bool IkSearch::ask_closed_form() noexcept {
+  ++attempts_;
+  ClosedFormSolutions solutions;
+  const JointVector& weights = options_.joint_weights;
+  solver_.closed_form_->solve(problem_.residual.target(), nullptr, solutions,
+                              {.seed = has_seed_ ? seed_.data() : nullptr,
+                               .weights = weights.size() > 0 ? weights.data() : nullptr});
+  for (const ClosedFormSolution& solution : solutions) {
+    IkPoint point{solution.q, {}};
+    if (!problem_.box.contains(solution.q)) {
+      continue;
+    }
+    if (descend(problem_, kMostIterations, point, iterations_)) {
+      best_ = point;
+      is_nearest_ = solution.exact;
+      return true;
+    }
+    misses_.add(point);
+  }
+  is_hopeless_ = solutions.status != ClosedFormStatus::kSolved;
+  return false;
 }
 
 bool IkSearch::attempt(const JointVector& start) noexcept {
@@ -130,9 +163,7 @@ void IkSearch::settle(IkPoint& point) noexcept {
 void IkSearch::search_nearer() noexcept {
   IkPoint nearest = best_;
   double distance = distance_from_seed(nearest.q);
-  for (int i = 1; i <= kAttemptsAround && attempts_ <= options_.max_restarts &&
-                  iterations_ < options_.max_iterations && elapsed() < options_.deadline;
-       ++i) {
+  for (int i = 1; i <= kAttemptsAround && has_more(); ++i) {
     JointVector start;
     samples_.next(start);
     const double part = std::min(1.0, 2.0 * i / kAttemptsAround);
@@ -151,7 +182,7 @@ void IkSearch::search_nearer() noexcept {
 
 IkResult IkSearch::found() noexcept {
   settle(best_);
-  if (options_.nearest) {
+  if (options_.nearest && !is_nearest_) {
     search_nearer();
   }
   return result(IkStatus::kSuccess);

@@ -32,9 +32,11 @@ class IkSearch {
  private:
   bool attempt(const JointVector& start) noexcept;
   bool restart() noexcept;
+  bool ask_closed_form() noexcept;
   void search_nearer() noexcept;
   void settle(IkPoint& point) noexcept;
   double distance_from_seed(const JointVector& q) const noexcept;
+  bool has_more() const noexcept;
   double elapsed() const noexcept;
   IkResult found() noexcept;
   IkResult failed() noexcept;
@@ -53,6 +55,8 @@ class IkSearch {
   NearMisses misses_;
   int iterations_ = 0;
   int attempts_ = 0;
+  bool is_nearest_ = false;   // no other solution is nearer to the seed
+  bool is_hopeless_ = false;  // there is no solution but within the tolerance of one
 };
 
 }  // namespace thing_kin

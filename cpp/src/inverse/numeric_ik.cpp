@@ -1,5 +1,7 @@
 #include "thing_kin/inverse/numeric_ik.hpp"
 
+#include <algorithm>
+
 #include "ik_search.hpp"
 #include "thing_kin/core/error.hpp"
 #include "thing_kin/core/parallel.hpp"
@@ -49,7 +51,13 @@ NumericIk::NumericIk(const Chain& chain, int frame, IkOptions options)
       box_(chain),
       reach_(chain, frame),
       length_(reach_.length() > 0.0 ? kLengthPerRadian * reach_.length() : 1.0),
-      samples_(chain.dof(), options_.rng) {}
+      samples_(chain.dof(), options_.rng) {
+  const auto& weight = options_.weights.weight;
+  const bool whole_pose = std::find(weight.begin(), weight.end(), 0.0) == weight.end();
+  if (options_.closed_form && whole_pose && !chain.base_joints()) {
+    closed_form_ = ClosedFormIk::find(chain, frame);
+  }
+}
 
 IkResult NumericIk::solve(const SE3& target, const double* seed) const noexcept {
   return IkSearch(*this, target, seed).run();

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "thing_kin/core/low_discrepancy.hpp"
+#include "thing_kin/inverse/closed_form_ik.hpp"
 #include "thing_kin/inverse/ik_result.hpp"
 #include "thing_kin/inverse/joint_box.hpp"
 #include "thing_kin/inverse/pose_residual.hpp"
@@ -34,6 +35,7 @@ struct IkOptions {
   int max_restarts = 100;
   double deadline = std::numeric_limits<double>::infinity();  ///< s
   std::uint64_t rng = 0;                                      ///< which restarts are tried
+  bool closed_form = true;  ///< restart from the closed form's solutions, where there is one
 
   /// Throws InvalidArgument if something does not fit the chain.
   void check(const Chain& chain) const;
@@ -63,7 +65,8 @@ struct IkBatchResult {
 /// Inverse kinematics of any chain: a damped Gauss-Newton descent (Levenberg-Marquardt with the
 /// damping in proportion to the cost, Sugihara 2011) on the exact Jacobian of the log error, that
 /// never leaves the joint limits; given up early where it stalls, and begun anew from the best of a
-/// few low-discrepancy samples. Every answer is checked by forward kinematics.
+/// few low-discrepancy samples, or for an arm on its own that has one from the solutions of its
+/// closed form. Every answer is checked by forward kinematics.
 ///
 /// Immutable: any number of threads may share one. solve() allocates nothing, and its result is a
 /// function of target, seed and options alone.
@@ -95,6 +98,7 @@ class NumericIk {
   Reach reach_;
   double length_;  // that counts as one radian, m
   LowDiscrepancy samples_;
+  std::optional<ClosedFormIk> closed_form_;
 };
 
 }  // namespace thing_kin

@@ -3,6 +3,7 @@
 
 #include "kernels.hpp"
 
+#include "arc_tangent.hpp"
 #include "damped.hpp"
 #include "quaternion.hpp"
 #include "walk.hpp"
@@ -193,14 +194,32 @@ void damped_inverse(const double* J, const double* mobility, int n, const double
   }
   for (int j = 0; j < n; ++j) {
     const double* c = J + 6 * j;
-    dq[j] = mobility[j] * ((c[0] * f[0] + c[1] * f[1] + c[2] * f[2]) +
-                           (c[3] * f[3] + c[4] * f[4] + c[5] * f[5]));
+    dq[j] = mobility[j] *
+            ((c[0] * f[0] + c[1] * f[1] + c[2] * f[2]) + (c[3] * f[3] + c[4] * f[4] + c[5] * f[5]));
+  }
+}
+
+void arc_tangents(const double* sine, const double* cosine, long count, double* angle) noexcept {
+  long i = 0;
+  for (; i + kLanes <= count; i += kLanes) {
+    store(arc_tangent(load(sine + i), load(cosine + i)), angle + i);
+  }
+  if (i < count) {
+    double filled[3][kLanes] = {};
+    for (long k = i; k < count; ++k) {
+      filled[0][k - i] = sine[k];
+      filled[1][k - i] = cosine[k];
+    }
+    store(arc_tangent(load(filled[0]), load(filled[1])), filled[2]);
+    for (long k = i; k < count; ++k) {
+      angle[k] = filled[2][k - i];
+    }
   }
 }
 
 }  // namespace
 
 extern const Kernels kKernels;
-const Kernels kKernels{place, pose, jacobian, poses, jacobians, damped_inverse};
+const Kernels kKernels{place, pose, jacobian, poses, jacobians, damped_inverse, arc_tangents};
 
 }  // namespace thing_kin::THING_KIN_LEVEL

@@ -36,6 +36,10 @@ struct Kernels {
   /// factors padded to four.
   void (*damped_inverse)(const double* J, const double* mobility, int n, const double* factors,
                          double lambda, const double* e, double* dq) noexcept;
+
+  /// Angles of `count` pairs.
+  void (*arc_tangents)(const double* sine, const double* cosine, long count,
+                       double* angle) noexcept;
 };
 
 /// Those of the level in use (core/simd.hpp).
