@@ -1,5 +1,7 @@
 #include "closest_pose.hpp"
 
+#include <algorithm>
+
 #include <Eigen/Cholesky>
 
 #include "thing_kin/kinematics/hessian.hpp"
@@ -13,6 +15,11 @@ using Joints = std::bitset<kMaxDof>;
 
 // The gradient of the cost is rounding below this fraction of what a residual of its size can give.
 constexpr double kStationary = 1e-10;
+
+// Where the solutions form a valley, the way along its floor is long and gains nothing: so many
+// steps on end that gain less than this fraction of the cost are the end.
+constexpr double kLeastGain = 1e-9;
+constexpr int kMostIdle = 4;
 
 // Newton's steps are damped between nothing and so much that a step is lost in rounding.
 constexpr double kFirstDamping = 1e-4;
@@ -73,11 +80,13 @@ bool is_stationary(const Quadratic& cost, const Joints& held) noexcept {
   return true;
 }
 
-// The damped Newton step of the joints that are not held; false if the Hessian is not definite.
-bool newton_step(Quadratic cost, const Joints& held, double damping, JointVector& step) noexcept {
+// The damped Newton step of the joints that are not fixed, where those that are move as `step`
+// says; false if the Hessian is not definite.
+bool solve_free(Quadratic cost, const Joints& fixed, double damping, JointVector& step) noexcept {
+  cost.gradient.noalias() += cost.hessian * step;
   for (Eigen::Index j = 0; j < cost.gradient.size(); ++j) {
-    if (held[static_cast<std::size_t>(j)]) {
-      cost.gradient[j] = 0.0;
+    if (fixed[static_cast<std::size_t>(j)]) {
+      cost.gradient[j] = -step[j];
       cost.hessian.row(j).setZero();
       cost.hessian.col(j).setZero();
       cost.hessian(j, j) = 1.0;
@@ -88,6 +97,33 @@ bool newton_step(Quadratic cost, const Joints& held, double damping, JointVector
   const Eigen::LLT<SmallMatrix> factors(cost.hessian);
   step = -factors.solve(cost.gradient);
   return factors.info() == Eigen::Success;
+}
+
+// The same within the box: joints that would leave it go to its side, and the others take that into
+// account.
+bool newton_step(const JointBox& box, const JointVector& q, const Quadratic& cost, Joints fixed,
+                 double damping, JointVector& step) noexcept {
+  JointVector known = JointVector::Zero(q.size());  // the steps of the fixed joints
+  for (Eigen::Index round = 0; round <= q.size(); ++round) {
+    step = known;
+    if (!solve_free(cost, fixed, damping, step)) {
+      return false;
+    }
+    bool again = false;
+    for (Eigen::Index j = 0; j < q.size(); ++j) {
+      const auto bit = static_cast<std::size_t>(j);
+      const double to = std::clamp(q[j] + step[j], box.lower(j), box.upper(j));
+      if (!fixed[bit] && !box.is_endless(j) && to != q[j] + step[j]) {
+        fixed.set(bit);
+        known[j] = to - q[j];
+        again = true;
+      }
+    }
+    if (!again) {
+      break;
+    }
+  }
+  return true;
 }
 
 // Tries one step; true if it came nearer.
@@ -112,19 +148,24 @@ Rest find_closest_pose(const IkProblem& problem, int most, IkPoint& point,
                        int& iterations) noexcept {
   Quadratic cost;
   double damping = kFirstDamping;
+  int idle = 0;
   expand(problem, point, cost);
   Joints held = pressed(problem.box, point.q, cost);
   for (int i = 0; i < most && !is_stationary(cost, held); ++i) {
     ++iterations;
     JointVector step;
-    if (newton_step(cost, held, damping, step) && advance(problem, step, point)) {
+    const double before = point.value.cost();
+    if (newton_step(problem.box, point.q, cost, held, damping, step) &&
+        advance(problem, step, point)) {
       damping *= 0.1;
+      idle = before - point.value.cost() < kLeastGain * before ? idle + 1 : 0;
       expand(problem, point, cost);
       held = pressed(problem.box, point.q, cost);
-    } else if (damping > kMostDamping) {
-      return {true, held};  // no step of any length comes nearer in rounding
     } else {
       damping = std::max(8.0 * damping, kFirstDamping);
+    }
+    if (idle == kMostIdle || damping > kMostDamping) {  // no step of any length comes nearer
+      return {true, held};
     }
   }
   return {is_stationary(cost, held), held};

@@ -71,21 +71,23 @@ IkSearch::IkSearch(const NumericIk& solver, const SE3& target, const double* see
       begin_(Clock::now()) {}
 
 IkResult IkSearch::run() noexcept {
-  const bool closed = solver_.closed_form_.has_value();
+  is_hopeless_ = is_out_of_reach();
+  const bool closed = solver_.closed_form_.has_value() && !is_hopeless_;
   bool reached = false;
   if (options_.nearest && closed) {
     reached = ask_closed_form() || attempt(seed_);
   } else {
     reached = (has_seed_ && attempt(seed_)) || (closed && has_more() && ask_closed_form());
   }
-  if (!reached && problem_.residual.has_position()) {
-    const Eigen::Vector3d& target = problem_.residual.target().translation;
-    is_hopeless_ = is_hopeless_ || solver_.reach_.beyond(problem_.box, target) > 0.0;
-  }
   while (!reached && has_more() && !(is_hopeless_ && attempts_ >= kHopelessAttempts)) {
     reached = restart();
   }
   return reached ? found() : failed();
+}
+
+bool IkSearch::is_out_of_reach() const noexcept {
+  return problem_.residual.has_position() &&
+         solver_.reach_.beyond(problem_.box, problem_.residual.target().translation) > 0.0;
 }
 
 bool IkSearch::has_more() const noexcept {

@@ -36,6 +36,7 @@ class IkSearch {
   void search_nearer() noexcept;
   void settle(IkPoint& point) noexcept;
   double distance_from_seed(const JointVector& q) const noexcept;
+  bool is_out_of_reach() const noexcept;
   bool has_more() const noexcept;
   double elapsed() const noexcept;
   IkResult found() noexcept;
