@@ -154,6 +154,24 @@ TASK_PRIORITY = [
         infinite=True,
     ),
 ]
+CLOSED_FORM = [
+    Argument("ik_all", "target", T, lambda v: tk.ik_all(ARM, v).q, moderate=True),
+    Argument("ik_all", "seed", Q[:6], lambda v: tk.ik_all(ARM, T, seed=v).q, moderate=True),
+    Argument(
+        "ik_all",
+        "weights",
+        np.ones(6),
+        lambda v: tk.ik_all(ARM, T, seed=Q[:6], weights=v).q,
+        moderate=True,
+    ),
+    Argument(
+        "ik_all",
+        "base",
+        Q[6:],
+        lambda v: tk.ik_all(ROBOT, T, base=v, respect_limits=False).q,
+        moderate=True,
+    ),
+]
 XYZW = np.array([0.5, -0.5, 0.5, 0.5])
 PIN_THING = interop.to_pinocchio(ROBOT)
 INTEROP = [
@@ -169,7 +187,7 @@ INTEROP = [
     Argument("PinocchioModel", "q", Q, PIN_THING.q),
     Argument("PinocchioModel", "v", Q, PIN_THING.from_v),
 ]
-ARGUMENTS = [*INTEROP, *CHAIN, *MOTION, *LIE, *LINALG, *MODEL, *TASK_PRIORITY]
+ARGUMENTS = [*INTEROP, *CHAIN, *MOTION, *LIE, *LINALG, *MODEL, *TASK_PRIORITY, *CLOSED_FORM]
 
 # None means "not given" to these.
 OPTIONAL = {"damping", "mount", "rpy", "null_motion", "lower", "upper", "step_limit"} | {
@@ -177,4 +195,6 @@ OPTIONAL = {"damping", "mount", "rpy", "null_motion", "lower", "upper", "step_li
     "acceleration_limits",
     "quaternion",
     "point",
+    "seed",
+    "weights",
 }
