@@ -173,6 +173,24 @@ IK = [
     Argument("ik", "joint_weights", np.full(6, 2.0), ik_with("joint_weights")),
     Argument("ik", "max_step", np.full(6, 0.5), ik_with("max_step", seed=Q[:6]), infinite=True),
 ]
+CLOSED_FORM = [
+    Argument("ik_all", "target", T, lambda v: tk.ik_all(ARM, v).q, moderate=True),
+    Argument("ik_all", "seed", Q[:6], lambda v: tk.ik_all(ARM, T, seed=v).q, moderate=True),
+    Argument(
+        "ik_all",
+        "weights",
+        np.ones(6),
+        lambda v: tk.ik_all(ARM, T, seed=Q[:6], weights=v).q,
+        moderate=True,
+    ),
+    Argument(
+        "ik_all",
+        "base",
+        Q[6:],
+        lambda v: tk.ik_all(ROBOT, T, base=v, respect_limits=False).q,
+        moderate=True,
+    ),
+]
 XYZW = np.array([0.5, -0.5, 0.5, 0.5])
 PIN_THING = interop.to_pinocchio(ROBOT)
 INTEROP = [
@@ -188,7 +206,17 @@ INTEROP = [
     Argument("PinocchioModel", "q", Q, PIN_THING.q),
     Argument("PinocchioModel", "v", Q, PIN_THING.from_v),
 ]
-ARGUMENTS = [*INTEROP, *CHAIN, *MOTION, *LIE, *LINALG, *MODEL, *TASK_PRIORITY, *IK]
+ARGUMENTS = [
+    *INTEROP,
+    *CHAIN,
+    *MOTION,
+    *LIE,
+    *LINALG,
+    *MODEL,
+    *TASK_PRIORITY,
+    *CLOSED_FORM,
+    *IK,
+]
 
 # None means "not given" to these.
 OPTIONAL = {"damping", "mount", "rpy", "null_motion", "lower", "upper", "step_limit"} | {

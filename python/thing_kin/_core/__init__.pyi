@@ -9,7 +9,7 @@ import os
 import typing
 from . import lie
 from . import robots
-__all__: list[str] = ['BaseTask', 'Chain', 'DH', 'Damped', 'Exact', 'MAX_DOF', 'OrientationTask', 'PoseTask', 'PositionTask', 'PostureTask', 'SelectivelyDamped', 'SingularValueFilter', 'Task', 'TaskPriority', 'TaskPriorityStep', 'filter_singular_values', 'lie', 'null_space', 'null_space_projector', 'on_omni_base', 'pinv', 'pose_error', 'robots', 'selectively_damped_step', 'simd_level', 'transform', 'use_simd_level']
+__all__: list[str] = ['BaseTask', 'Chain', 'DH', 'Damped', 'Exact', 'IkSolutions', 'MAX_DOF', 'OrientationTask', 'PoseTask', 'PositionTask', 'PostureTask', 'SelectivelyDamped', 'SingularValueFilter', 'Task', 'TaskPriority', 'TaskPriorityStep', 'filter_singular_values', 'has_closed_form', 'ik_all', 'lie', 'null_space', 'null_space_projector', 'on_omni_base', 'pinv', 'pose_error', 'robots', 'selectively_damped_step', 'simd_level', 'transform', 'use_simd_level']
 class SingularValueFilter:
     """
     Lifts small singular values to at least sigma0, [M17] (4.12).
@@ -1445,6 +1445,68 @@ class TaskPriority:
         """
         'nakamura', 'siciliano' or 'chiaverini'.
         """
+class IkSolutions:
+    """
+    What ik_all found: a sequence of configurations.
+    
+    len(), iteration and indexing are those of q, and numpy takes it for q. Which solutions are worth
+    having, and why there are none, is said beside it.
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> arm = tk.robots.ur5()
+    >>> solutions = tk.ik_all(arm, arm.fk([0.1, -1.2, 1.4, -0.6, 1.2, 0.0]))
+    >>> solutions
+    IkSolutions(8 solutions)
+    >>> np.asarray(solutions).shape, solutions.exact.all().item()
+    ((8, 6), True)
+    """
+    def __array__(self, dtype: typing.Any = None, copy: typing.Any = None) -> typing.Any:
+        ...
+    def __getitem__(self, arg0: typing.Any) -> typing.Any:
+        ...
+    def __iter__(self) -> collections.abc.Iterator:
+        ...
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def exact(self) -> numpy.typing.NDArray[numpy.bool]:
+        """
+        (k,) bool: whether both errors are at most 1e-9.
+        """
+    @property
+    def message(self) -> str:
+        """
+        The same in words, with numbers.
+        """
+    @property
+    def position_error(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (k,), m: distance from the target, by forward kinematics.
+        """
+    @property
+    def q(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (k, n), rad and m: one solution a row.
+        """
+    @property
+    def rotation_error(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (k,), rad: angle from the target, by forward kinematics.
+        """
+    @property
+    def singular(self) -> list[str | None]:
+        """
+        For each solution 'shoulder', 'elbow' or 'wrist' where two branches meet, within 1e-6 rad or so; else None.
+        """
+    @property
+    def status(self) -> str:
+        """
+        'solved'; 'outside_limits': reached, but only beyond joint limits, and so empty; 'unreachable': what is here comes closest.
+        """
 def filter_singular_values(J: numpy.typing.ArrayLike, sigma0: typing.SupportsFloat | typing.SupportsIndex, nu: typing.SupportsFloat | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float64]:
     """
     The matrix with its singular values lifted, [M17] (4.13).
@@ -1466,6 +1528,87 @@ def filter_singular_values(J: numpy.typing.ArrayLike, sigma0: typing.SupportsFlo
     >>> tk.filter_singular_values(rank_one, sigma0=0.01, nu=10.0).round(3)
     array([[3.  , 0.  ],
            [0.  , 0.01]])
+    """
+def has_closed_form(chain: Chain, frame: str | int | None = None) -> bool:
+    """
+    Whether ik_all takes this chain.
+    
+    Parameters
+    ----------
+    chain : Chain
+    frame : str or int, optional
+        Name (or index) from `frames`; default: the last, the tool.
+    
+    Returns
+    -------
+    bool
+    
+    Raises
+    ------
+    ValueError
+        If there is no such frame.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> tk.has_closed_form(tk.robots.ur10()), tk.has_closed_form(tk.robots.ur10(), "forearm")
+    (True, False)
+    """
+def ik_all(chain: Chain, target: numpy.typing.ArrayLike, *, seed: typing.Any = None, base: typing.Any = None, frame: str | int | None = None, respect_limits: bool = True, images: bool = False, weights: typing.Any = None) -> IkSolutions:
+    """
+    Every configuration of a six-joint arm for a pose, in closed form.
+    
+    For arms with three parallel axes (2, 3, 4 or 3, 4, 5), such as those of Universal Robots, and arms
+    with a spherical wrist (axes 4, 5, 6 meet) or shoulder (1, 2, 3), on a base or not; their axes decide,
+    not their names. Up to eight branches by subproblems after Pieper (1968), Paden (1986), and Elias and
+    Wen (2022), each checked by forward kinematics, and polished where rounded dimensions ask for it.
+    
+    A joint stands at the turn that is within its limits and nearest to the seed's, or without a seed to
+    the middle of its range (0 if it has none). Where a joint is free, at a singularity, it stays there:
+    the last of the wrist's joints (at the far end of an arm with a spherical shoulder, the first), joint
+    1 where the wrist's center is on its axis, joint 2 where the elbow is folded onto it.
+    
+    Parameters
+    ----------
+    chain : Chain
+    target : (4, 4)
+        Pose of the frame in the root.
+    seed : (n,), rad and m, optional
+        Solutions come nearest first. Without it: in a fixed order, by shoulder, then wrist, then elbow,
+        or for a spherical wrist by shoulder, elbow, wrist.
+    base : (3,), optional
+        x, y (m) and theta (rad) of the base, for a chain on one: solutions are for this place.
+    frame : str or int, optional
+        Name (or index) from `frames`, behind the last joint; default: the last, the tool.
+    respect_limits : bool
+        Leave out what is beyond joint limits in every turn.
+    images : bool
+        All turns of all joints that are within limits, not only the nearest. At most 100 000.
+    weights : (n,), optional
+        Of the squared differences in the distance to the seed; default 1.
+    
+    Returns
+    -------
+    IkSolutions
+        Where the arm can't reach the target, the closest it comes (m and rad count alike), marked as
+        not exact; where it only can beyond its limits, nothing; the message says so.
+    
+    Raises
+    ------
+    ValueError
+        If the arm has no closed form here, an argument has a wrong shape or is not finite, the target is
+        not rigid, or the base is missing or beyond its limits.
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> robot = tk.robots.thing()
+    >>> q = np.array([0.0, -1.2, 1.4, -0.6, 1.2, 0.0, 0.3, -0.2, 0.4])
+    >>> solutions = tk.ik_all(robot, robot.fk(q), seed=q, base=q[6:])
+    >>> len(solutions), np.allclose(solutions[0], q, atol=1e-9)
+    (8, True)
+    >>> tk.ik_all(robot, tk.transform(xyz=(0, 0, 3)), base=(0, 0, 0)).status
+    'unreachable'
     """
 def null_space(J: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
     """
