@@ -75,9 +75,9 @@ IkResult IkSearch::run() noexcept {
   const bool out_of_reach =
       !reached && problem_.residual.has_position() &&
       solver_.reach_.beyond(problem_.box, problem_.residual.target().translation) > 0.0;
-  const int most = std::min(options_.max_restarts + 1,
-                            out_of_reach ? kAttemptsOutOfReach : std::numeric_limits<int>::max());
-  while (!reached && attempts_ < most && iterations_ < options_.max_iterations &&
+  const int restarts = out_of_reach ? std::min(options_.max_restarts, kAttemptsOutOfReach - 1)
+                                    : options_.max_restarts;
+  while (!reached && attempts_ <= restarts && iterations_ < options_.max_iterations &&
          elapsed() < options_.deadline) {
     reached = restart();
   }
@@ -116,10 +116,27 @@ double IkSearch::distance_from_seed(const JointVector& q) const noexcept {
   return (q - seed_).cwiseAbs2().cwiseQuotient(problem_.mobility).sum();
 }
 
+// Moves point to its image nearest to the seed, unless that is so many turns away that their
+// rounding shows.
+void IkSearch::wind(IkPoint& point) const noexcept {
+  IkPoint image = point;
+  problem_.box.wind_towards(seed_, image.q);
+  if (image.q == point.q) {
+    return;
+  }
+  problem_.residual.evaluate(forward_kinematics(problem_.chain, image.q.data(), problem_.frame),
+                             image.value);
+  constexpr double kRounding = 1.0 + 1e-9;
+  if (problem_.is_reached(point.value) ? problem_.is_reached(image.value)
+                                       : image.value.cost() <= kRounding * point.value.cost()) {
+    point = image;
+  }
+}
+
 // Among the images and the null-space motions of a solution, the one that is wanted.
 void IkSearch::settle(IkPoint& point) noexcept {
   if (has_seed_) {
-    problem_.box.wind_towards(seed_, point.q);
+    wind(point);
   }
   const IkObjective objective = options_.nearest ? IkObjective::kSeed : options_.objective;
   if (objective != IkObjective::kNone) {
@@ -137,7 +154,7 @@ void IkSearch::search_nearer() noexcept {
     samples_.next(start);
     const double part = std::min(1.0, 2.0 * i / kAttemptsAround);
     start = seed_ + part * (start - seed_);
-    if (!attempt(start)) {
+    if (!attempt(inside(problem_.box, start.data(), start.size()))) {  // but for rounding it is
       continue;
     }
     settle(best_);
@@ -164,7 +181,7 @@ IkResult IkSearch::failed() noexcept {
   }
   const Rest rest = come_nearest();
   if (has_seed_) {
-    problem_.box.wind_towards(seed_, best_.q);
+    wind(best_);
   }
   return result(reason(rest));
 }
@@ -174,8 +191,9 @@ Rest IkSearch::come_nearest() noexcept {
   Rest best;
   double least = std::numeric_limits<double>::infinity();
   for (IkPoint& point : misses_.nearest()) {
-    const Rest rest = find_closest_pose(problem_, kMostPolishing, point, iterations_);
-    if (point.value.cost() < least) {
+    const int most = elapsed() < options_.deadline ? kMostPolishing : 0;
+    const Rest rest = find_closest_pose(problem_, most, point, iterations_);
+    if (best_.q.size() == 0 || point.value.cost() < least) {
       least = point.value.cost();
       best_ = point;
       best = rest;

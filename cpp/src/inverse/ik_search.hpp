@@ -33,6 +33,7 @@ class IkSearch {
   bool attempt(const JointVector& start) noexcept;
   bool restart() noexcept;
   void search_nearer() noexcept;
+  void wind(IkPoint& point) const noexcept;
   void settle(IkPoint& point) noexcept;
   double distance_from_seed(const JointVector& q) const noexcept;
   double elapsed() const noexcept;

@@ -12,6 +12,9 @@ namespace {
 // between 0.2 and 0.6.
 constexpr double kLengthPerRadian = 0.3;
 
+// Links shorter than this are none, but rounding.
+constexpr double kLeastLength = 1e-9;
+
 // A thread costs some tens of microseconds, a target about ten.
 constexpr std::size_t kTargetsPerThread = 16;
 
@@ -48,7 +51,7 @@ NumericIk::NumericIk(const Chain& chain, int frame, IkOptions options)
       mobility_(inverse_weights(options_.joint_weights, chain.dof())),
       box_(chain),
       reach_(chain, frame),
-      length_(reach_.length() > 0.0 ? kLengthPerRadian * reach_.length() : 1.0),
+      length_(reach_.length() > kLeastLength ? kLengthPerRadian * reach_.length() : 1.0),
       samples_(chain.dof(), options_.rng) {}
 
 IkResult NumericIk::solve(const SE3& target, const double* seed) const noexcept {
