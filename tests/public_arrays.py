@@ -154,6 +154,25 @@ TASK_PRIORITY = [
         infinite=True,
     ),
 ]
+
+
+def ik_with(name: str, **others: Any) -> Callable[[Any], Any]:
+    return lambda value: tk.ik(ARM, **{"target": T, **others, name: value}).q
+
+
+def ik_target(task: str) -> Callable[[Any], Any]:
+    return lambda value: tk.ik(ARM, value, task=task).q
+
+
+IK = [
+    Argument("ik", "target", T, ik_target("pose")),
+    Argument("ik position", "target", T[:3, 3], ik_target("position")),
+    Argument("ik orientation", "target", T[:3, :3], ik_target("orientation")),
+    Argument("ik", "seed", Q[:6], ik_with("seed"), moderate=True),
+    Argument("ik", "weights", np.ones(6), ik_with("weights")),
+    Argument("ik", "joint_weights", np.full(6, 2.0), ik_with("joint_weights")),
+    Argument("ik", "max_step", np.full(6, 0.5), ik_with("max_step", seed=Q[:6]), infinite=True),
+]
 XYZW = np.array([0.5, -0.5, 0.5, 0.5])
 PIN_THING = interop.to_pinocchio(ROBOT)
 INTEROP = [
@@ -169,7 +188,7 @@ INTEROP = [
     Argument("PinocchioModel", "q", Q, PIN_THING.q),
     Argument("PinocchioModel", "v", Q, PIN_THING.from_v),
 ]
-ARGUMENTS = [*INTEROP, *CHAIN, *MOTION, *LIE, *LINALG, *MODEL, *TASK_PRIORITY]
+ARGUMENTS = [*INTEROP, *CHAIN, *MOTION, *LIE, *LINALG, *MODEL, *TASK_PRIORITY, *IK]
 
 # None means "not given" to these.
 OPTIONAL = {"damping", "mount", "rpy", "null_motion", "lower", "upper", "step_limit"} | {
@@ -177,4 +196,8 @@ OPTIONAL = {"damping", "mount", "rpy", "null_motion", "lower", "upper", "step_li
     "acceleration_limits",
     "quaternion",
     "point",
+    "seed",
+    "weights",
+    "joint_weights",
+    "max_step",
 }

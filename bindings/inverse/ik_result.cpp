@@ -77,8 +77,10 @@ True
           "Whether the target is met within tolerance and limits, by forward kinematics of q.")
       .def_property_readonly(
           "status", [](const ExplainedIk& ik) { return to_string(ik.result.status); },
-          R"('success'; 'unreachable': no pose found is nearer, and no limit holds the robot back;
-'limited': joint limits do; 'step_bound': max_step does; 'budget' or 'deadline': ran out.)")
+          R"(How it ended.
+
+'success'; 'unreachable': no pose found is nearer, and no limit holds the robot back; 'limited': joint
+limits do; 'step_bound': max_step does; 'budget' or 'deadline': ran out.)")
       .def_property_readonly("message", &ExplainedIk::message, "The status in a sentence.")
       .def_property_readonly(
           "position_error", [](const ExplainedIk& ik) { return ik.result.position_error; },

@@ -124,7 +124,7 @@ struct BoundIk {
   NumericIk solver;
 };
 
-Batch read_targets(Part part, const py::object& target) {
+Batch read_targets_of(Part part, const py::object& target) {
   switch (part) {
     case Part::kPosition:
       return read(target, "target", {3});
@@ -134,6 +134,12 @@ Batch read_targets(Part part, const py::object& target) {
       break;
   }
   return read(target, "target", {4, 4});
+}
+
+Batch read_targets(Part part, const py::object& target) {
+  Batch targets = read_targets_of(part, target);
+  check_magnitude(targets, "target");
+  return targets;
 }
 
 SE3 target_at(Part part, const double* numbers) {
@@ -158,6 +164,7 @@ Batch read_seeds(const IkOptions& options, const OptionalArray& seed, py::ssize_
     return {};
   }
   const Batch seeds = read_vectors(seed, "seed", n);
+  check_magnitude(seeds, "seed");
   if (!seeds.single && (targets.single || seeds.count != targets.count)) {
     throw InvalidArgument("seed", std::to_string(seeds.count).append(" configurations"),
                           "one, or one a target");
@@ -383,8 +390,8 @@ Examples
 >>> result = tk.ik(robot, T, seed=np.zeros(9))
 >>> result.success, bool(np.allclose(robot.fk(result.q), T, atol=1e-6))
 (True, True)
->>> tk.ik(robot, (1.0, 2.0, 50.0), task="position").message
-'48.1... m beyond reach'
+>>> tk.ik(robot, (1.0, 2.0, 50.0), task="position").status
+'unreachable'
 )");
   });
 }
