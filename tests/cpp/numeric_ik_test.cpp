@@ -183,7 +183,10 @@ TEST(Reach, BoundsTheDistance) {
 
 TEST(JointBox, WindsWhereATurnIsLostInRounding) {
   for (const double limit : {1e15, 1e16, 3e17, 1e20, 1e300, 1.7e308}) {
-    const DhRow row{.a = 0.1, .joint = JointType::kRevolute, .limits = {-limit, limit}};
+    DhRow row;
+    row.joint = JointType::kRevolute;
+    row.limits.lower = -limit;
+    row.limits.upper = limit;
     const Chain chain = Chain::from_dh(std::vector<DhRow>{row});
     const JointBox box(chain);
     for (int i = -100; i <= 100; ++i) {
