@@ -32,7 +32,7 @@ SAYS = {
     "unreachable": " beyond reach",
     "limited": " limit",
     "step_bound": "no solution within max_step of the seed",
-    "budget": "iterations ran out",
+    "budget": "iterations or restarts ran out",
     "deadline": "time ran out",
 }
 FIELDS = (

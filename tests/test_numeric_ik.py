@@ -191,6 +191,22 @@ class TestParts:
         assert np.abs(error[:, free]).max() > 1e-2
         np.testing.assert_array_equal(results.q[:, 5], 0.3)
 
+    @pytest.mark.parametrize("axes", ["target", "world"])
+    def test_free_coordinates_may_be_anywhere(self, axes: str) -> None:
+        """Beyond reach in a coordinate that does not count, and the base does not drive there."""
+        robot = tk.robots.thing()
+        starts = robot.random(50, rng=31)
+        targets = robot.fk(starts + np.r_[np.full(6, 0.05), np.zeros(3)])
+        away = np.array([1e3, 0.0, 0.0])
+        targets[:, :3, 3] += targets[:, :3, :3] @ away if axes == "target" else away
+        weights = (0, 1, 1, 1, 1, 1)
+        results = tk.ik(robot, targets, seed=starts, weights=weights, weight_axes=axes)
+        assert results.success.all()
+        assert np.abs(results.q - starts).max() < 1.0
+        targets[:, :3, 3] += 1e3  # now in the others too
+        far = tk.ik(robot, targets, seed=starts, weights=weights, weight_axes=axes)
+        assert not far.success.any()
+
     def test_free_turn_about_the_tool(self) -> None:
         """What differs from the target is a turn about its own z."""
         robot = tk.robots.thing()
@@ -373,6 +389,19 @@ class TestFailure:
         assert result.status == "limited"
         assert "joint 'x' at its upper limit" in result.message
         assert result.active_limits[robot.names.index("x")] == 1
+
+    def test_nothing_is_said_to_be_out_of_reach_that_is_not(self) -> None:
+        """A small budget and max_step leave targets unmet that could be met."""
+        arm = tk.robots.ur10()
+        targets, starts = arm.fk(arm.random(200, rng=1)), arm.random(200, rng=2)
+        few = tk.ik(arm, targets, seed=starts, max_restarts=0, max_iterations=10)
+        assert set(few.status) == {"success", "budget"}
+        near = tk.ik(arm, targets, seed=starts, max_step=2.0, max_restarts=10)
+        assert set(near.status) == {"success", "step_bound", "limited"}
+        targets[:, :3, 3] += 5.0
+        far = tk.ik(arm, targets, seed=starts, max_restarts=0)
+        assert set(far.status) == {"unreachable"}
+        assert few.message[(few.status == "budget").argmax()].startswith("iterations or restarts")
 
     def test_budgets(self) -> None:
         arm = tk.robots.ur10()

@@ -60,7 +60,7 @@ std::string message(const Chain& chain, const IkResult& result) {
       return "no solution within max_step of the seed; the closest is " + distance(result) +
              " away";
     case IkStatus::kBudget:
-      return "iterations ran out; the closest is " + distance(result) + " away";
+      return "iterations or restarts ran out; the closest is " + distance(result) + " away";
     case IkStatus::kDeadline:
       return "time ran out; the closest is " + distance(result) + " away";
   }

@@ -73,7 +73,7 @@ void IkSamples::next(JointVector& q) noexcept {
   for (Eigen::Index i = 0; i < kCandidates; ++i) {
     const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> T(poses.data() + 16 * i);
     const SE3& target = problem_.residual.target();
-    Eigen::Vector3d way = target.translation - T.topRightCorner<3, 1>();
+    Eigen::Vector3d way = problem_.residual.way_from(T.topRightCorner<3, 1>());
     reach_.drive(problem_.box, 0.0, way, candidates.data() + i * n);
     const double turned = 3.0 - target.rotation.cwiseProduct(T.topLeftCorner<3, 3>()).sum();
     const double cost = problem_.residual.rough_cost(way, turned);

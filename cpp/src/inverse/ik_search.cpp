@@ -14,7 +14,8 @@ using Clock = std::chrono::steady_clock;
 // An attempt that gets this far without a stall converges slowly, towards a singular posture.
 constexpr int kMostIterations = 40;
 
-// Where the target is certainly out of reach, more would only search for a closer pose.
+// Where the target is certainly out of reach, more would only search for a closer pose; where it is
+// not, fewer do not show that it is.
 constexpr int kAttemptsOutOfReach = 16;
 
 // For the closest pose of a target out of reach.
@@ -72,11 +73,10 @@ IkSearch::IkSearch(const NumericIk& solver, const SE3& target, const double* see
 
 IkResult IkSearch::run() noexcept {
   bool reached = has_seed_ && attempt(seed_);
-  const bool out_of_reach =
-      !reached && problem_.residual.has_position() &&
-      solver_.reach_.beyond(problem_.box, problem_.residual.target().translation) > 0.0;
-  const int restarts = out_of_reach ? std::min(options_.max_restarts, kAttemptsOutOfReach - 1)
-                                    : options_.max_restarts;
+  out_of_reach_ = !reached && problem_.residual.has_all_of_position() &&
+                  solver_.reach_.beyond(problem_.box, problem_.residual.target().translation) > 0.0;
+  const int restarts = out_of_reach_ ? std::min(options_.max_restarts, kAttemptsOutOfReach - 1)
+                                     : options_.max_restarts;
   while (!reached && attempts_ <= restarts && iterations_ < options_.max_iterations &&
          elapsed() < options_.deadline) {
     reached = restart();
@@ -89,7 +89,7 @@ bool IkSearch::attempt(const JointVector& start) noexcept {
   IkPoint point{start, {}};
   if (problem_.residual.has_position() && solver_.reach_.has_slides()) {
     const SE3 T = forward_kinematics(problem_.chain, start.data(), problem_.frame);
-    Eigen::Vector3d way = problem_.residual.target().translation - T.translation;
+    Eigen::Vector3d way = problem_.residual.way_from(T.translation);
     solver_.reach_.drive(problem_.box, kComfortableReach * solver_.reach_.length(), way,
                          point.q.data());
   }
@@ -219,7 +219,16 @@ IkStatus IkSearch::reason(const Rest& rest) const noexcept {
       limited = true;
     }
   }
-  return limited ? IkStatus::kLimited : IkStatus::kUnreachable;
+  if (limited) {
+    return IkStatus::kLimited;
+  }
+  if (out_of_reach_) {
+    return IkStatus::kUnreachable;
+  }
+  if (options_.max_step.size() > 0) {
+    return IkStatus::kStepBound;
+  }
+  return attempts_ < kAttemptsOutOfReach ? IkStatus::kBudget : IkStatus::kUnreachable;
 }
 
 // Whatever the solver thinks, the errors are those of forward kinematics at the q that is returned,

@@ -54,6 +54,7 @@ class IkSearch {
   NearMisses misses_;
   int iterations_ = 0;
   int attempts_ = 0;
+  bool out_of_reach_ = false;  // certainly
 };
 
 }  // namespace thing_kin
