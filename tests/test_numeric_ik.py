@@ -191,6 +191,22 @@ class TestParts:
         assert np.abs(error[:, free]).max() > 1e-2
         np.testing.assert_array_equal(results.q[:, 5], 0.3)
 
+    @pytest.mark.parametrize("axes", ["target", "world"])
+    def test_free_coordinates_may_be_anywhere(self, axes: str) -> None:
+        """Beyond reach in a coordinate that does not count, and the base does not drive there."""
+        robot = tk.robots.thing()
+        starts = robot.random(50, rng=31)
+        targets = robot.fk(starts + np.r_[np.full(6, 0.05), np.zeros(3)])
+        away = np.array([1e3, 0.0, 0.0])
+        targets[:, :3, 3] += targets[:, :3, :3] @ away if axes == "target" else away
+        weights = (0, 1, 1, 1, 1, 1)
+        results = tk.ik(robot, targets, seed=starts, weights=weights, weight_axes=axes)
+        assert results.success.all()
+        assert np.abs(results.q - starts).max() < 1.0
+        targets[:, :3, 3] += 1e3  # now in the others too
+        far = tk.ik(robot, targets, seed=starts, weights=weights, weight_axes=axes)
+        assert not far.success.any()
+
     def test_free_turn_about_the_tool(self) -> None:
         """What differs from the target is a turn about its own z."""
         robot = tk.robots.thing()
@@ -374,6 +390,19 @@ class TestFailure:
         assert "joint 'x' at its upper limit" in result.message
         assert result.active_limits[robot.names.index("x")] == 1
 
+    def test_nothing_is_said_to_be_out_of_reach_that_is_not(self) -> None:
+        """A small budget and max_step leave targets unmet that could be met."""
+        arm = tk.robots.ur10()
+        targets, starts = arm.fk(arm.random(200, rng=1)), arm.random(200, rng=2)
+        few = tk.ik(arm, targets, seed=starts, max_restarts=0, max_iterations=10)
+        assert set(few.status) == {"success", "budget"}
+        near = tk.ik(arm, targets, seed=starts, max_step=2.0, max_restarts=10)
+        assert set(near.status) == {"success", "step_bound", "limited"}
+        targets[:, :3, 3] += 5.0
+        far = tk.ik(arm, targets, seed=starts, max_restarts=0)
+        assert set(far.status) == {"unreachable"}
+        assert few.message[(few.status == "budget").argmax()].startswith("iterations or restarts")
+
     def test_budgets(self) -> None:
         arm = tk.robots.ur10()
         T = arm.fk(arm.random(rng=22))
@@ -397,6 +426,104 @@ def link_lengths(arm: tk.Chain) -> float:
     """The sum of the links after the first joint, the scale of a radian in the solver."""
     frames = np.array([arm.fk(np.zeros(6), frame=i)[:3, 3] for i in range(7)])
     return float(np.linalg.norm(np.diff(frames, axis=0), axis=1).sum())
+
+
+class TestExtremes:
+    """Numbers that are legal, and of a size or a kind that few mean."""
+
+    def test_restarts_without_end(self) -> None:
+        arm = tk.robots.ur10()
+        T = arm.fk(arm.random(rng=25))
+        result = tk.ik(arm, T, max_restarts=2**31 - 1)
+        np.testing.assert_array_equal(result.q, tk.ik(arm, T).q)
+
+    @pytest.mark.parametrize("turns", [1e2, 1e8, 1e11, 1e39])
+    def test_turns_back_to_the_seed_cost_no_success(self, turns: float) -> None:
+        """Their rounding, 2e-16 of the angle, may exceed the tolerance: then they are not made."""
+        rows = [tk.DH(a=0.3, d=0.1, alpha=i % 2, joint="continuous") for i in range(6)]
+        arm = tk.Chain.from_dh(rows)
+        T = arm.fk(np.linspace(0.1, 0.9, 6))
+        result = tk.ik(arm, T, seed=np.full(6, 2 * np.pi * turns))
+        assert result.success, result.message
+        check(arm, T, result)
+        assert turns > 1e3 or np.all(np.abs(result.q - 2 * np.pi * turns) <= np.pi * (1 + 1e-12))
+
+    @pytest.mark.parametrize("limit", [1e5, 1e16, 1.7e308, np.inf])
+    @pytest.mark.parametrize("one_sided", [False, True])
+    def test_limits_that_mean_none(self, limit: float, one_sided: bool) -> None:
+        rows = [tk.DH(a=0.3, joint="prismatic", lower=-1.0, upper=1.0)]
+        rows += [tk.DH(a=0.3, d=0.1, alpha=np.pi / 2, joint="revolute") for i in range(6)]
+        upper = np.full(7, 2.0 if one_sided else limit)
+        arm = tk.Chain.from_dh(rows).with_limits(lower=np.full(7, -limit), upper=upper)
+        targets = arm.fk(np.random.default_rng(26).uniform(-1.5, 1.5, (50, 7)))
+        for objective in ("none", "limits", "manipulability"):
+            results = tk.ik(arm, targets, objective=objective)
+            assert results.success.all()
+            check(arm, targets, results)
+            assert np.abs(results.q).max() < 100.0
+
+    def test_a_limit_range_that_has_no_square(self) -> None:
+        """For the objective 'limits' such a joint is one that stands still."""
+        robot = tk.robots.thing()
+        q = robot.random(rng=27)
+        q[0] = 0.0
+        lower, upper = robot.lower.copy(), robot.upper.copy()
+        lower[0], upper[0] = 0.0, 0.0
+        still = robot.with_limits(lower=lower, upper=upper)
+        upper[0] = 1e-200
+        nearly = robot.with_limits(lower=lower, upper=upper)
+        expected, result = (
+            tk.ik(r, robot.fk(q), seed=q, objective="limits") for r in (still, nearly)
+        )
+        np.testing.assert_allclose(result.q, expected.q, atol=1e-5)
+        assert not np.allclose(result.q, q, atol=1e-2)
+
+    def test_links_that_are_rounding(self) -> None:
+        """A gantry with a wrist: no length makes a radian of meters."""
+        slides = [(0.0, np.pi / 2), (np.pi / 2, np.pi / 2), (np.pi / 2, 0.0)]
+        rows = [
+            tk.DH(theta=theta, alpha=alpha, joint="prismatic", lower=-1.0, upper=1.0)
+            for theta, alpha in slides
+        ]
+        rows += [
+            tk.DH(a=1e-17, alpha=alpha, joint="revolute", lower=-3.0, upper=3.0)
+            for alpha in (np.pi / 2, -np.pi / 2, 0.0)
+        ]
+        gantry = tk.Chain.from_dh(rows)
+        targets = gantry.fk(gantry.random(100, rng=28))
+        results = tk.ik(gantry, targets, seed=gantry.random(100, rng=29))
+        assert results.success.all()
+        check(gantry, targets, results)
+
+    @pytest.mark.parametrize("name", ["target", "seed"])
+    def test_squares_that_overflow_are_refused(self, name: str) -> None:
+        robot = tk.robots.thing()
+        arguments = {"target": np.full(3, 0.5), "seed": np.zeros(9)}
+        arguments[name] = arguments[name] + 1e200
+        with pytest.raises(ValueError, match=rf"^{name}: got 1e\+200"):
+            tk.ik(robot, task="position", **arguments)
+
+    @pytest.mark.parametrize("weight", [5e-324, 1e-300, 1e-7, 1e7, np.inf])
+    def test_joint_weights_that_overflow_are_refused(self, weight: float) -> None:
+        with pytest.raises(ValueError, match=r"^joint_weights: got .* numbers in \[1e-6, 1e6\]"):
+            tk.NumericIk(tk.robots.ur5(), joint_weights=weight)
+
+    def test_no_polishing_after_the_deadline(self) -> None:
+        arm = tk.robots.ur10()
+        result = tk.ik(arm, tk.transform(xyz=(1.0, 1.0, 1.0)), seed=np.ones(6), deadline=1e-9)
+        assert result.status == "deadline"
+        assert 1 <= result.iterations <= 40  # one attempt
+
+    @pytest.mark.parametrize("frame", [0, "shoulder"])
+    def test_a_frame_that_hardly_moves(self, frame: int | str) -> None:
+        arm = tk.robots.ur5()
+        T = arm.fk(np.zeros(6), frame)
+        assert tk.ik(arm, T, frame=frame).success
+        T[2, 3] += 0.25
+        result = tk.ik(arm, T, frame=frame)
+        assert result.status == "unreachable"
+        np.testing.assert_allclose(result.position_error, 0.25, rtol=1e-9)
+        assert result.message.startswith("0.25 m")
 
 
 class TestResult:

@@ -260,7 +260,7 @@ weight_axes : str
 position_tolerance, rotation_tolerance : float > 0
     m and rad, of the coordinates that count.
 joint_weights : float or (n,), optional
-    Cost of each joint's motion: a joint with a larger weight moves less. Default ones.
+    Cost of each joint's motion, 1e-6 to 1e6: a joint with a larger weight moves less. Default ones.
 max_step : float or (n,), optional
     How far from the seed each joint may be, rad and m. Fails rather than jumps. Needs a seed.
 nearest : bool

@@ -181,6 +181,66 @@ TEST(Reach, BoundsTheDistance) {
   EXPECT_GT(reach.beyond(JointBox(robot), {0, 0, 50}), 45.0);
 }
 
+TEST(JointBox, WindsWhereATurnIsLostInRounding) {
+  for (const double limit : {1e15, 1e16, 3e17, 1e20, 1e300, 1.7e308}) {
+    DhRow row;
+    row.joint = JointType::kRevolute;
+    row.limits.lower = -limit;
+    row.limits.upper = limit;
+    const Chain chain = Chain::from_dh(std::vector<DhRow>{row});
+    const JointBox box(chain);
+    for (int i = -100; i <= 100; ++i) {
+      const JointVector seed = JointVector::Constant(1, i < 0 ? -limit : limit);
+      JointVector q = JointVector::Constant(1, 0.03 * i);
+      box.wind_towards(seed, q);  // ends
+      EXPECT_TRUE(box.contains(q)) << limit;
+    }
+  }
+}
+
+TEST(IkResult, SaysWhatIsAmiss) {
+  const Chain arm = robots::ur10();
+  IkResult result;
+  result.q = JointVector::Zero(6);
+  result.status = IkStatus::kUnreachable;
+  result.rotation_error = 5e-10;
+  EXPECT_EQ(message(arm, result), "5e-10 rad beyond reach");
+  result.position_error = 2e-10;
+  EXPECT_EQ(message(arm, result), "5e-10 rad beyond reach");
+  result.position_error = 0.5;
+  EXPECT_EQ(message(arm, result), "0.5 m beyond reach");
+  result.rotation_error = 0.25;
+  EXPECT_EQ(message(arm, result), "0.5 m and 0.25 rad beyond reach");
+}
+
+TEST(NumericIk, KeepsQFiniteWhereSquaresOverflow) {
+  const double inf = std::numeric_limits<double>::infinity();
+  for (Chain robot : {robots::thing(), robots::ur10()}) {
+    std::vector<JointLimits> limits = robot.limits();
+    for (const bool limited : {true, false}) {
+      for (JointLimits& limit : limits) {
+        limit.lower = limited ? limit.lower : -inf;
+        limit.upper = limited ? limit.upper : inf;
+      }
+      robot = robot.with_limits(limits);
+      for (const double size : {1e50, 1e155, 1e200, 1e300}) {
+        const SE3 target{Eigen::Matrix3d::Identity(), {size, -size, size}};
+        const JointVector seed = JointVector::Constant(robot.dof(), size);
+        for (const double* from : {seed.data(), static_cast<const double*>(nullptr)}) {
+          for (const int restarts : {0, 3}) {
+            IkOptions options;
+            options.max_restarts = restarts;
+            const IkResult result = NumericIk(robot, robot.tool(), options).solve(target, from);
+            ASSERT_EQ(result.q.size(), robot.dof());
+            EXPECT_TRUE(result.q.allFinite()) << size;
+            EXPECT_TRUE(JointBox(robot).contains(result.q));
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(NumericIk, ThreadsShareOne) {
   const Chain arm = robots::ur10();
   const NumericIk solver(arm, arm.tool());

@@ -41,7 +41,7 @@ bool descend(const IkProblem& problem, int most, IkPoint& point, int& iterations
     place_joints(chain, q.data(), posture);
     residual.evaluate(frame_pose(chain, posture, frame), value);
     const double cost = value.cost();
-    if (cost < best) {
+    if (i == 0 || cost < best) {
       best = cost;
       point.q = q;
       point.value = value;

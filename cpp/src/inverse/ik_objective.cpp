@@ -36,9 +36,10 @@ IkMeasure::IkMeasure(const IkProblem& problem, IkObjective objective,
   middle_.resize(mobility_.size());
   for (Eigen::Index j = 0; j < mobility_.size(); ++j) {
     const double range = problem.chain.upper()[j] - problem.chain.lower()[j];
-    const bool limited = std::isfinite(range) && range > 0.0;
+    const double square = range * range;
+    const bool limited = std::isnormal(square);
     counts_[j] = limited ? 1.0 : 0.0;
-    mobility_[j] = limited ? range * range : 1.0;
+    mobility_[j] = limited ? square : 1.0;
     middle_[j] = limited ? 0.5 * (problem.chain.upper()[j] + problem.chain.lower()[j]) : 0.0;
   }
 }

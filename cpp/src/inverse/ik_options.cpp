@@ -29,7 +29,8 @@ void check_count(int count, int least, const char* name) {
   }
 }
 
-void check_positive(const JointVector& numbers, int n, const char* name, double most) {
+void check_joints(const JointVector& numbers, int n, const char* name, double least, double most,
+                  const char* expected) {
   if (numbers.size() == 0) {
     return;
   }
@@ -38,8 +39,8 @@ void check_positive(const JointVector& numbers, int n, const char* name, double 
                           std::to_string(n).append(", one a joint"));
   }
   for (const double number : numbers) {
-    if (!(number > 0.0 && number <= most)) {
-      throw InvalidArgument(name, text(number), "numbers > 0");
+    if (!(number >= least && number <= most)) {
+      throw InvalidArgument(name, text(number), expected);
     }
   }
 }
@@ -76,8 +77,9 @@ void IkOptions::check(const Chain& chain) const {
   check_tolerance(position_tolerance, "position_tolerance");
   check_tolerance(rotation_tolerance, "rotation_tolerance");
   check_weights(weights);
-  check_positive(joint_weights, chain.dof(), "joint_weights", 1e6);
-  check_positive(max_step, chain.dof(), "max_step", std::numeric_limits<double>::infinity());
+  check_joints(joint_weights, chain.dof(), "joint_weights", 1e-6, 1e6, "numbers in [1e-6, 1e6]");
+  check_joints(max_step, chain.dof(), "max_step", std::numeric_limits<double>::denorm_min(),
+               std::numeric_limits<double>::infinity(), "numbers > 0");
   check_count(max_iterations, 1, "max_iterations");
   check_count(max_restarts, 0, "max_restarts");
   if (!(deadline > 0.0)) {

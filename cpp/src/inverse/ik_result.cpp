@@ -1,5 +1,7 @@
 #include "thing_kin/inverse/ik_result.hpp"
 
+#include <algorithm>
+
 #include "thing_kin/core/error.hpp"
 
 namespace thing_kin {
@@ -11,10 +13,10 @@ std::string distance(const IkResult& result) {
   constexpr double kNothing = 1e-9;
   const std::string position = text(result.position_error).append(" m");
   const std::string rotation = text(result.rotation_error).append(" rad");
-  if (result.rotation_error < kNothing) {
-    return position;
+  if (std::min(result.position_error, result.rotation_error) >= kNothing) {
+    return position + " and " + rotation;
   }
-  return result.position_error < kNothing ? rotation : position + " and " + rotation;
+  return result.position_error >= result.rotation_error ? position : rotation;
 }
 
 std::string joints_at_limits(const Chain& chain, const ActiveLimits& active) {
@@ -58,7 +60,7 @@ std::string message(const Chain& chain, const IkResult& result) {
       return "no solution within max_step of the seed; the closest is " + distance(result) +
              " away";
     case IkStatus::kBudget:
-      return "iterations ran out; the closest is " + distance(result) + " away";
+      return "iterations or restarts ran out; the closest is " + distance(result) + " away";
     case IkStatus::kDeadline:
       return "time ran out; the closest is " + distance(result) + " away";
   }

@@ -1,6 +1,6 @@
 #include "ik_samples.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <limits>
 #include <numbers>
 
@@ -12,21 +12,18 @@ namespace {
 
 constexpr int kCandidates = 16;
 
+// Limits farther apart than this, rad or m, are a way to write that there are none.
+constexpr double kLimitless = 1e4;
+
 // What is sampled of [lower, upper]: a turn of a joint without limits, and of a slide without
-// limits one length of the arm.
+// limits one length of the arm to either side; about zero, or as near to it as may be.
 void finite_range(bool rotary, double length, double& lower, double& upper) {
-  const double half = rotary ? std::numbers::pi : std::max(length, 1.0);
-  if (std::isfinite(lower) && std::isfinite(upper)) {
+  if (upper - lower <= kLimitless) {
     return;
   }
-  if (std::isfinite(lower)) {
-    upper = lower + 2.0 * half;
-  } else if (std::isfinite(upper)) {
-    lower = upper - 2.0 * half;
-  } else {
-    lower = -half;
-    upper = half;
-  }
+  const double half = rotary ? std::numbers::pi : std::max(length, 1.0);
+  lower = std::clamp(-half, lower, std::max(lower, upper - 2.0 * half));
+  upper = std::min(upper, lower + 2.0 * half);
 }
 
 }  // namespace
@@ -46,11 +43,19 @@ IkSamples::IkSamples(const IkProblem& problem, const LowDiscrepancy& sequence,
   }
 }
 
+JointVector IkSamples::middle() const noexcept {
+  JointVector q = lower_ + 0.5 * range_;
+  for (Eigen::Index j = 0; j < q.size(); ++j) {
+    q[j] = problem_.box.inside(j, q[j]);  // but for rounding it is
+  }
+  return q;
+}
+
 void IkSamples::draw(double* q) noexcept {
   ++drawn_;
   for (Eigen::Index j = 0; j < lower_.size(); ++j) {
     const double x = lower_[j] + sequence_(drawn_, static_cast<int>(j)) * range_[j];
-    q[j] = std::min(x, problem_.box.upper(j));
+    q[j] = std::clamp(x, problem_.box.lower(j), problem_.box.upper(j));
   }
 }
 
@@ -68,7 +73,7 @@ void IkSamples::next(JointVector& q) noexcept {
   for (Eigen::Index i = 0; i < kCandidates; ++i) {
     const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> T(poses.data() + 16 * i);
     const SE3& target = problem_.residual.target();
-    Eigen::Vector3d way = target.translation - T.topRightCorner<3, 1>();
+    Eigen::Vector3d way = problem_.residual.way_from(T.topRightCorner<3, 1>());
     reach_.drive(problem_.box, 0.0, way, candidates.data() + i * n);
     const double turned = 3.0 - target.rotation.cwiseProduct(T.topLeftCorner<3, 3>()).sum();
     const double cost = problem_.residual.rough_cost(way, turned);

@@ -15,7 +15,7 @@ class IkSamples {
   void next(JointVector& q) noexcept;
 
   /// The middle of what is sampled.
-  JointVector middle() const noexcept { return lower_ + 0.5 * range_; }
+  JointVector middle() const noexcept;
 
  private:
   void draw(double* q) noexcept;

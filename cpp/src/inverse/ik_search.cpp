@@ -14,7 +14,8 @@ using Clock = std::chrono::steady_clock;
 // An attempt that gets this far without a stall converges slowly, towards a singular posture.
 constexpr int kMostIterations = 40;
 
-// Where the target is certainly out of reach, more would only search for a closer pose.
+// Where the target is certainly out of reach, more would only search for a closer pose; where it is
+// not, fewer do not show that it is.
 constexpr int kHopelessAttempts = 16;
 
 // For the closest pose of a target out of reach.
@@ -86,7 +87,7 @@ IkResult IkSearch::run() noexcept {
 }
 
 bool IkSearch::is_out_of_reach() const noexcept {
-  return problem_.residual.has_position() &&
+  return problem_.residual.has_all_of_position() &&
          solver_.reach_.beyond(problem_.box, problem_.residual.target().translation) > 0.0;
 }
 
@@ -124,7 +125,7 @@ bool IkSearch::attempt(const JointVector& start) noexcept {
   IkPoint point{start, {}};
   if (problem_.residual.has_position() && solver_.reach_.has_slides()) {
     const SE3 T = forward_kinematics(problem_.chain, start.data(), problem_.frame);
-    Eigen::Vector3d way = problem_.residual.target().translation - T.translation;
+    Eigen::Vector3d way = problem_.residual.way_from(T.translation);
     solver_.reach_.drive(problem_.box, kComfortableReach * solver_.reach_.length(), way,
                          point.q.data());
   }
@@ -151,10 +152,27 @@ double IkSearch::distance_from_seed(const JointVector& q) const noexcept {
   return (q - seed_).cwiseAbs2().cwiseQuotient(problem_.mobility).sum();
 }
 
+// Moves point to its image nearest to the seed, unless that is so many turns away that their
+// rounding shows.
+void IkSearch::wind(IkPoint& point) const noexcept {
+  IkPoint image = point;
+  problem_.box.wind_towards(seed_, image.q);
+  if (image.q == point.q) {
+    return;
+  }
+  problem_.residual.evaluate(forward_kinematics(problem_.chain, image.q.data(), problem_.frame),
+                             image.value);
+  constexpr double kRounding = 1.0 + 1e-9;
+  if (problem_.is_reached(point.value) ? problem_.is_reached(image.value)
+                                       : image.value.cost() <= kRounding * point.value.cost()) {
+    point = image;
+  }
+}
+
 // Among the images and the null-space motions of a solution, the one that is wanted.
 void IkSearch::settle(IkPoint& point) noexcept {
   if (has_seed_) {
-    problem_.box.wind_towards(seed_, point.q);
+    wind(point);
   }
   const IkObjective objective = options_.nearest ? IkObjective::kSeed : options_.objective;
   if (objective != IkObjective::kNone) {
@@ -170,7 +188,7 @@ void IkSearch::search_nearer() noexcept {
     samples_.next(start);
     const double part = std::min(1.0, 2.0 * i / kAttemptsAround);
     start = seed_ + part * (start - seed_);
-    if (!attempt(start)) {
+    if (!attempt(inside(problem_.box, start.data(), start.size()))) {  // but for rounding it is
       continue;
     }
     settle(best_);
@@ -197,7 +215,7 @@ IkResult IkSearch::failed() noexcept {
   }
   const Rest rest = come_nearest();
   if (has_seed_) {
-    problem_.box.wind_towards(seed_, best_.q);
+    wind(best_);
   }
   return result(reason(rest));
 }
@@ -207,8 +225,9 @@ Rest IkSearch::come_nearest() noexcept {
   Rest best;
   double least = std::numeric_limits<double>::infinity();
   for (IkPoint& point : misses_.nearest()) {
-    const Rest rest = find_closest_pose(problem_, kMostPolishing, point, iterations_);
-    if (point.value.cost() < least) {
+    const int most = elapsed() < options_.deadline ? kMostPolishing : 0;
+    const Rest rest = find_closest_pose(problem_, most, point, iterations_);
+    if (best_.q.size() == 0 || point.value.cost() < least) {
       least = point.value.cost();
       best_ = point;
       best = rest;
@@ -234,7 +253,16 @@ IkStatus IkSearch::reason(const Rest& rest) const noexcept {
       limited = true;
     }
   }
-  return limited ? IkStatus::kLimited : IkStatus::kUnreachable;
+  if (limited) {
+    return IkStatus::kLimited;
+  }
+  if (is_hopeless_) {
+    return IkStatus::kUnreachable;
+  }
+  if (options_.max_step.size() > 0) {
+    return IkStatus::kStepBound;
+  }
+  return attempts_ < kHopelessAttempts ? IkStatus::kBudget : IkStatus::kUnreachable;
 }
 
 // Whatever the solver thinks, the errors are those of forward kinematics at the q that is returned,

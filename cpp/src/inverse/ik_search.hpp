@@ -34,6 +34,7 @@ class IkSearch {
   bool restart() noexcept;
   bool ask_closed_form() noexcept;
   void search_nearer() noexcept;
+  void wind(IkPoint& point) const noexcept;
   void settle(IkPoint& point) noexcept;
   double distance_from_seed(const JointVector& q) const noexcept;
   bool is_out_of_reach() const noexcept;

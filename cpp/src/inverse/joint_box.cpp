@@ -58,9 +58,10 @@ void JointBox::wind_towards(const JointVector& seed, JointVector& q) const noexc
     if (!is_endless(j)) {
       continue;
     }
-    // Rounding towards zero turns where a limit is in the way.
-    for (double turns = std::round((seed[j] - q[j]) / kTurn); turns != 0.0;
-         turns -= std::copysign(1.0, turns)) {
+    // A limit may be in the way of the nearest image, but since the seed is within the limits not
+    // of the one before it.
+    double turns = std::round((seed[j] - q[j]) / kTurn);
+    for (int i = 0; i < 2 && turns != 0.0; ++i, turns -= std::copysign(1.0, turns)) {
       const double x = q[j] + turns * kTurn;
       if (x >= lower_[j] && x <= upper_[j]) {
         q[j] = x;

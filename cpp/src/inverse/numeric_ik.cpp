@@ -14,6 +14,9 @@ namespace {
 // between 0.2 and 0.6.
 constexpr double kLengthPerRadian = 0.3;
 
+// Links shorter than this are none, but rounding.
+constexpr double kLeastLength = 1e-9;
+
 // A thread costs some tens of microseconds, a target about ten.
 constexpr std::size_t kTargetsPerThread = 16;
 
@@ -50,7 +53,7 @@ NumericIk::NumericIk(const Chain& chain, int frame, IkOptions options)
       mobility_(inverse_weights(options_.joint_weights, chain.dof())),
       box_(chain),
       reach_(chain, frame),
-      length_(reach_.length() > 0.0 ? kLengthPerRadian * reach_.length() : 1.0),
+      length_(reach_.length() > kLeastLength ? kLengthPerRadian * reach_.length() : 1.0),
       samples_(chain.dof(), options_.rng) {
   const auto& weight = options_.weights.weight;
   const bool whole_pose = std::find(weight.begin(), weight.end(), 0.0) == weight.end();

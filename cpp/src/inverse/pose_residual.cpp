@@ -81,6 +81,17 @@ void PoseResidual::evaluate(const SE3& T, Value& value) const noexcept {
   value.e.tail<3>() = scale_.tail<3>().cwiseProduct(rotation);
 }
 
+Eigen::Vector3d PoseResidual::way_from(const Eigen::Vector3d& translation) const noexcept {
+  const Eigen::Vector3d way = target_.translation - translation;
+  if (has_all_of_position()) {
+    return way;
+  }
+  if (!target_axes_) {
+    return counts_.head<3>().cwiseProduct(way);
+  }
+  return target_.rotation * counts_.head<3>().cwiseProduct(target_.rotation.transpose() * way);
+}
+
 RowFactors PoseResidual::derivative(const Value& value) const noexcept {
   // J_r^-1(a) = I + [a]/2 + c [a]^2, and [a]^2 = a a^T - |a|^2 I.
   const Eigen::Vector3d& a = value.log;

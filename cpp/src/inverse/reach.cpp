@@ -51,7 +51,7 @@ void Reach::drive(const JointBox& box, double rest, Eigen::Vector3d& way,
   if (distance <= rest) {
     return;
   }
-  const double part = (distance - rest) / distance;
+  const double part = 1.0 - rest / distance;
   for (std::size_t i = 0; i < count_; ++i) {
     const auto& [axis, j] = slides_[i];
     const double x = std::clamp(q[j] + part * axis.dot(way), box.lower(j), box.upper(j));

@@ -14,7 +14,7 @@ enum class IkStatus : std::uint8_t {
   kUnreachable,  ///< q is the closest pose found, and no joint limit holds it back
   kLimited,      ///< q is the closest pose found, and joint limits hold it back
   kStepBound,    ///< no solution within max_step of the seed
-  kBudget,       ///< iterations ran out
+  kBudget,       ///< iterations or restarts ran out
   kDeadline,     ///< time ran out
 };
 

@@ -28,7 +28,8 @@ class JointBox {
 
   bool contains(const JointVector& q) const noexcept;
 
-  /// Moves each endless joint by whole turns to the image nearest to that of `seed`.
+  /// Moves each endless joint by whole turns to the image nearest to `seed`, which is in the
+  /// box.
   void wind_towards(const JointVector& seed, JointVector& q) const noexcept;
 
  private:

@@ -27,7 +27,7 @@ struct IkOptions {
   double position_tolerance = 1e-7;  ///< m
   double rotation_tolerance = 1e-7;  ///< rad
   PoseWeights weights;
-  JointVector joint_weights;  ///< cost of each joint's motion; empty: 1
+  JointVector joint_weights;  ///< cost of each joint's motion, [1e-6, 1e6]; empty: 1
   JointVector max_step;       ///< how far each joint may be from the seed; empty: anywhere
   IkObjective objective = IkObjective::kNone;
   bool nearest = false;       ///< search on for the solution nearest to the seed
@@ -80,8 +80,9 @@ class NumericIk {
   int frame() const { return frame_; }
   const IkOptions& options() const { return options_; }
 
-  /// target: finite; its rotation is made orthonormal first. seed: (n) finite, brought into the
-  /// limits first; or null: none, which max_step, nearest and the objective kSeed do not allow.
+  /// target, seed: numbers up to 1e50, lest their squares overflow. The target's rotation is made
+  /// orthonormal first. seed: (n), brought into the limits first; or null: none, which max_step,
+  /// nearest and the objective kSeed do not allow.
   IkResult solve(const SE3& target, const double* seed) const noexcept;
 
   /// Each row as by solve(), on several threads.

@@ -48,8 +48,12 @@ class PoseResidual {
     return 0.5 * (linear * linear * way.squaredNorm() + angular * angular * turned);
   }
 
+  /// The way from there to the target, m, without the coordinates that are free.
+  Eigen::Vector3d way_from(const Eigen::Vector3d& translation) const noexcept;
+
   const SE3& target() const { return target_; }
   bool has_position() const { return has_position_; }
+  bool has_all_of_position() const { return counts_.head<3>().minCoeff() > 0.0; }
   bool has_rotation() const { return has_rotation_; }
 
   /// Whether all three coordinates of each part count the same: then e is of the world's axes.
