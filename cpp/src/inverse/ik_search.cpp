@@ -1,0 +1,200 @@
+#include "ik_search.hpp"
+
+#include <cmath>
+
+#include "ik_objective.hpp"
+
+namespace thing_kin {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// An attempt that gets this far without a stall converges slowly, towards a singular posture.
+constexpr int kMostIterations = 40;
+
+// Where the target is certainly out of reach, more would only search for a closer pose.
+constexpr int kAttemptsOutOfReach = 8;
+
+// For the closest pose of a target out of reach.
+constexpr int kMostPolishing = 200;
+
+// Of the arm's length: how near a base drives before the arm is asked.
+constexpr double kComfortableReach = 0.5;
+
+// Attempts from around the seed, nearest first, when the nearest solution is wanted.
+constexpr int kAttemptsAround = 16;
+
+JointVector inside(const JointBox& box, const double* seed, Eigen::Index n) {
+  JointVector q(n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    q[j] = box.inside(j, seed[j]);
+  }
+  return q;
+}
+
+JointBox box_around(JointBox box, const JointVector& seed, const JointVector& max_step) {
+  if (max_step.size() > 0 && seed.size() > 0) {
+    box.keep_near(seed, max_step);
+  }
+  return box;
+}
+
+}  // namespace
+
+IkSearch::IkSearch(const NumericIk& solver, const SE3& target, const double* seed) noexcept
+    : solver_(solver),
+      options_(solver.options_),
+      has_seed_(seed != nullptr),
+      seed_(has_seed_ ? inside(solver.box_, seed, solver.chain_.dof()) : JointVector()),
+      problem_{solver.chain_,
+               solver.frame_,
+               PoseResidual(target, options_.weights, solver.length_),
+               box_around(solver.box_, seed_, options_.max_step),
+               solver.mobility_,
+               options_.position_tolerance,
+               options_.rotation_tolerance},
+      samples_(problem_, solver.samples_, solver.reach_),
+      begin_(Clock::now()) {}
+
+IkResult IkSearch::run() noexcept {
+  bool reached = has_seed_ && attempt(seed_);
+  const bool out_of_reach =
+      !reached && problem_.residual.has_position() &&
+      solver_.reach_.beyond(problem_.box, problem_.residual.target().translation) > 0.0;
+  const int most = std::min(options_.max_restarts + 1,
+                            out_of_reach ? kAttemptsOutOfReach : std::numeric_limits<int>::max());
+  while (!reached && attempts_ < most && iterations_ < options_.max_iterations &&
+         elapsed() < options_.deadline) {
+    reached = restart();
+  }
+  return reached ? found() : failed();
+}
+
+bool IkSearch::attempt(const JointVector& start) noexcept {
+  ++attempts_;
+  IkPoint point{start, {}};
+  if (problem_.residual.has_position() && solver_.reach_.has_slides()) {
+    const SE3 T = forward_kinematics(problem_.chain, start.data(), problem_.frame);
+    Eigen::Vector3d way = problem_.residual.target().translation - T.translation;
+    solver_.reach_.drive(problem_.box, kComfortableReach * solver_.reach_.length(), way,
+                         point.q.data());
+  }
+  const int most = std::min(kMostIterations, options_.max_iterations - iterations_);
+  const bool reached = descend(problem_, most, point, iterations_);
+  if (reached || point.value.cost() < least_) {
+    best_ = point;
+    least_ = point.value.cost();
+  }
+  return reached;
+}
+
+bool IkSearch::restart() noexcept {
+  JointVector start;
+  samples_.next(start);
+  return attempt(start);
+}
+
+double IkSearch::elapsed() const noexcept {
+  return std::chrono::duration<double>(Clock::now() - begin_).count();
+}
+
+double IkSearch::distance_from_seed(const JointVector& q) const noexcept {
+  return (q - seed_).cwiseAbs2().cwiseQuotient(problem_.mobility).sum();
+}
+
+// Among the images and the null-space motions of a solution, the one that is wanted.
+void IkSearch::settle(IkPoint& point) noexcept {
+  if (has_seed_) {
+    problem_.box.wind_towards(seed_, point.q);
+  }
+  const IkObjective objective = options_.nearest ? IkObjective::kSeed : options_.objective;
+  if (objective != IkObjective::kNone) {
+    improve(problem_, IkMeasure(problem_, objective, seed_), point, iterations_);
+  }
+}
+
+void IkSearch::search_nearer() noexcept {
+  IkPoint nearest = best_;
+  double distance = distance_from_seed(nearest.q);
+  for (int i = 1; i <= kAttemptsAround && attempts_ <= options_.max_restarts &&
+                  iterations_ < options_.max_iterations && elapsed() < options_.deadline;
+       ++i) {
+    JointVector start;
+    samples_.next(start);
+    start = seed_ + (static_cast<double>(i) / kAttemptsAround) * (start - seed_);
+    if (!attempt(start)) {
+      continue;
+    }
+    settle(best_);
+    if (const double other = distance_from_seed(best_.q); other < distance) {
+      nearest = best_;
+      distance = other;
+    }
+  }
+  best_ = nearest;
+}
+
+IkResult IkSearch::found() noexcept {
+  settle(best_);
+  if (options_.nearest) {
+    search_nearer();
+  }
+  return result(IkStatus::kSuccess);
+}
+
+IkResult IkSearch::failed() noexcept {
+  Rest rest;
+  if (attempts_ == 0) {  // no time for even one
+    best_.q = samples_.middle();
+  } else {
+    rest = find_closest_pose(problem_, kMostPolishing, best_, iterations_);
+  }
+  if (has_seed_) {
+    problem_.box.wind_towards(seed_, best_.q);
+  }
+  return result(reason(rest));
+}
+
+IkStatus IkSearch::reason(const Rest& rest) const noexcept {
+  if (!(elapsed() < options_.deadline)) {
+    return IkStatus::kDeadline;
+  }
+  if (!rest.stationary) {
+    return IkStatus::kBudget;
+  }
+  bool limited = false;
+  for (Eigen::Index j = 0; j < best_.q.size(); ++j) {
+    if (rest.held_back[static_cast<std::size_t>(j)]) {
+      const double x = best_.q[j];
+      if (x != problem_.chain.lower()[j] && x != problem_.chain.upper()[j]) {
+        return IkStatus::kStepBound;
+      }
+      limited = true;
+    }
+  }
+  return limited ? IkStatus::kLimited : IkStatus::kUnreachable;
+}
+
+// Whatever the solver thinks, the errors are those of forward kinematics at the q that is returned,
+// and they decide.
+IkResult IkSearch::result(IkStatus status) const noexcept {
+  PoseResidual::Value value;
+  problem_.residual.evaluate(forward_kinematics(problem_.chain, best_.q.data(), problem_.frame),
+                             value);
+  const bool reached = value.position_error <= options_.position_tolerance &&
+                       value.rotation_error <= options_.rotation_tolerance;
+  if (reached != (status == IkStatus::kSuccess)) {
+    status = reached ? IkStatus::kSuccess : IkStatus::kBudget;
+  }
+  return {best_.q,
+          status,
+          value.position_error,
+          value.rotation_error,
+          active_limits(problem_.chain, best_.q),
+          iterations_,
+          std::max(0, attempts_ - 1),
+          elapsed()};
+}
+
+}  // namespace thing_kin

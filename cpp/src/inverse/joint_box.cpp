@@ -1,0 +1,64 @@
+#include "thing_kin/inverse/joint_box.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace thing_kin {
+
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+}  // namespace
+
+JointBox::JointBox(const Chain& chain) noexcept : lower_(chain.lower()), upper_(chain.upper()) {
+  for (std::size_t j = 0; j < static_cast<std::size_t>(chain.dof()); ++j) {
+    const auto i = static_cast<Eigen::Index>(j);
+    rotary_[j] = thing_kin::is_rotary(chain.joint_types()[j]);
+    endless_[j] = rotary_[j] && upper_[i] - lower_[i] >= kTurn;
+  }
+}
+
+void JointBox::keep_near(const JointVector& seed, const JointVector& max_step) noexcept {
+  for (Eigen::Index j = 0; j < lower_.size(); ++j) {
+    lower_[j] = std::max(lower_[j], seed[j] - max_step[j]);
+    upper_[j] = std::min(upper_[j], seed[j] + max_step[j]);
+    const auto i = static_cast<std::size_t>(j);
+    endless_[i] = endless_[i] && upper_[j] - lower_[j] >= kTurn;
+  }
+}
+
+double JointBox::inside(Eigen::Index j, double x) const noexcept {
+  if (x >= lower_[j] && x <= upper_[j]) {
+    return x;
+  }
+  if (is_endless(j)) {
+    const double past = x < lower_[j] ? lower_[j] - x : upper_[j] - x;
+    x += std::copysign(kTurn * std::ceil(std::abs(past) / kTurn), past);
+  }
+  return std::clamp(x, lower_[j], upper_[j]);
+}
+
+bool JointBox::contains(const JointVector& q) const noexcept {
+  return (q.array() >= lower_.array()).all() && (q.array() <= upper_.array()).all();
+}
+
+void JointBox::wind_towards(const JointVector& seed, JointVector& q) const noexcept {
+  for (Eigen::Index j = 0; j < q.size(); ++j) {
+    if (!is_endless(j)) {
+      continue;
+    }
+    // Rounding towards zero turns where a limit is in the way.
+    for (double turns = std::round((seed[j] - q[j]) / kTurn); turns != 0.0;
+         turns -= std::copysign(1.0, turns)) {
+      const double x = q[j] + turns * kTurn;
+      if (x >= lower_[j] && x <= upper_[j]) {
+        q[j] = x;
+        break;
+      }
+    }
+  }
+}
+
+}  // namespace thing_kin
