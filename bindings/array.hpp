@@ -24,6 +24,12 @@ class ArrayLike : public py::object {
   PYBIND11_OBJECT_DEFAULT(ArrayLike, object, [](PyObject*) { return 1; })
 };
 
+/// The same, or None.
+class OptionalArray : public py::object {
+ public:
+  PYBIND11_OBJECT_DEFAULT(OptionalArray, object, [](PyObject*) { return 1; })
+};
+
 /// Results that are a float for one configuration and an array for a batch.
 class FloatOrArray : public py::object {
  public:
@@ -102,6 +108,11 @@ namespace pybind11::detail {
 template <>
 struct handle_type_name<thing_kin::python::ArrayLike> {
   static constexpr auto name = const_name("numpy.typing.ArrayLike");
+};
+
+template <>
+struct handle_type_name<thing_kin::python::OptionalArray> {
+  static constexpr auto name = const_name("numpy.typing.ArrayLike | None");
 };
 
 template <>

@@ -42,5 +42,7 @@ void bind_task_vector(ChainClass& chain);
 void bind_differential_inverse(py::module_& m);
 void bind_task(py::module_& m);
 void bind_task_priority(py::module_& m);
+void bind_ik_result(py::module_& m);
+void bind_numeric_ik(py::module_& m);
 
 }  // namespace thing_kin::python

@@ -42,4 +42,6 @@ PYBIND11_MODULE(_core, m) {
   bind_differential_inverse(m);
   bind_task(m);
   bind_task_priority(m);
+  bind_ik_result(m);
+  bind_numeric_ik(m);
 }

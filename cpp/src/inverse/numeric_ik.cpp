@@ -27,11 +27,6 @@ IkOptions checked(IkOptions options, const Chain& chain) {
   return options;
 }
 
-SE3 pose_from_rows(const double* rows) {
-  const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> T(rows);
-  return {T.topLeftCorner<3, 3>(), T.topRightCorner<3, 1>()};
-}
-
 void store(const IkResult& result, std::size_t i, const IkBatchResult& results) {
   const auto n = static_cast<std::size_t>(result.q.size());
   std::copy_n(result.q.data(), n, results.q + i * n);
@@ -66,7 +61,7 @@ void NumericIk::solve(const IkBatch& batch, const IkBatchResult& results) const 
   parallel_ranges(batch.count, threads, 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const double* seed = batch.seeds == nullptr ? nullptr : batch.seeds + i * stride;
-      store(solve(pose_from_rows(batch.targets + 16 * i), seed), i, results);
+      store(solve(batch.targets[i], seed), i, results);
     }
   });
 }

@@ -1,6 +1,7 @@
 #include "thing_kin/inverse/pose_residual.hpp"
 
 #include "thing_kin/core/error.hpp"
+#include "thing_kin/core/tolerance.hpp"
 #include "thing_kin/lie/so3.hpp"
 
 namespace thing_kin {
@@ -15,8 +16,22 @@ WeightAxes weight_axes_from_string(const std::string& name) {
   throw InvalidArgument("weight_axes", quoted(name), "'target' or 'world'");
 }
 
+namespace {
+
+// A matrix with few digits is meant to be the rotation next to it; without this the error could not
+// fall below its rounding.
+SE3 orthonormal(const SE3& T) {
+  const Eigen::Matrix3d gram = T.rotation.transpose() * T.rotation;
+  if (gram.isIdentity(8 * kEpsilon)) {
+    return T;
+  }
+  return {rotation_from_quaternion(quaternion_from_rotation(T.rotation)), T.translation};
+}
+
+}  // namespace
+
 PoseResidual::PoseResidual(const SE3& target, const PoseWeights& weights, double length) noexcept
-    : target_(target) {
+    : target_(orthonormal(target)) {
   scale_ = Eigen::Map<const Vector6>(weights.weight.data());
   counts_ = (scale_.array() > 0.0).cast<double>();
   has_position_ = !scale_.head<3>().isZero(0.0);

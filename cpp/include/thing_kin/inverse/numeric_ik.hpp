@@ -39,9 +39,9 @@ struct IkOptions {
   void check(const Chain& chain) const;
 };
 
-/// Many targets: poses (4, 4) row-major; seeds null, one for all, or one a target.
+/// Many targets; seeds null, one for all, or one a target.
 struct IkBatch {
-  const double* targets = nullptr;
+  const SE3* targets = nullptr;
   const double* seeds = nullptr;
   bool one_seed = true;
   std::size_t count = 0;
@@ -77,7 +77,8 @@ class NumericIk {
   int frame() const { return frame_; }
   const IkOptions& options() const { return options_; }
 
-  /// seed: (n) finite, brought into the limits first; or null: none.
+  /// target: finite; its rotation is made orthonormal first. seed: (n) finite, brought into the
+  /// limits first; or null: none, which max_step, nearest and the objective kSeed do not allow.
   IkResult solve(const SE3& target, const double* seed) const noexcept;
 
   /// Each row as by solve(), on several threads.
