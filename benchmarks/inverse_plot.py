@@ -49,7 +49,7 @@ def draw(content: dict[str, Any], path: Path) -> None:
             axes.plot(seconds, share, **STYLES.get(result["solver"], {"color": "k"}))
     for axes in panels[len(robots) :]:
         axes.set_visible(False)
-    for axes in panels[:len(robots)][-COLUMNS:]:
+    for axes in panels[: len(robots)][-COLUMNS:]:
         axes.set_xlabel("CPU time of a target", fontsize=9)
     figure.supylabel("targets solved within it, %", fontsize=9)
     seen = {r["solver"]: r["title"] for r in content["results"]}

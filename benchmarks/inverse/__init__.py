@@ -88,9 +88,10 @@ def register(solver: type[Solver]) -> type[Solver]:
     return solver
 
 
-def gather() -> dict[str, type[Solver]]:
-    """All solvers by name, thing_kin's first."""
-    solvers = importlib.import_module("inverse.solvers")
-    for module in pkgutil.iter_modules(solvers.__path__):
-        importlib.import_module(f"inverse.solvers.{module.name}")
-    return dict(sorted(REGISTRY.items(), key=lambda item: (item[1].environment != "", item[0])))
+def gather(package: str = "solvers") -> dict[str, type[Solver]]:
+    """All solvers of a package by name, thing_kin's first."""
+    name = f"inverse.{package}"
+    for module in pkgutil.iter_modules(importlib.import_module(name).__path__):
+        importlib.import_module(f"{name}.{module.name}")
+    found = {k: solver for k, solver in REGISTRY.items() if solver.__module__.startswith(name)}
+    return dict(sorted(found.items(), key=lambda item: (item[1].environment != "", item[0])))

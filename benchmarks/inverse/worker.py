@@ -33,7 +33,7 @@ def empty_call() -> int:
 
 class Worker:
     def __init__(self, name: str) -> None:
-        self.solver_class = gather()[name]
+        self.solver_class = {**gather("solvers"), **gather("steps")}[name]
         self.clock = empty_call()
 
     def about(self) -> dict[str, str] | None:

@@ -5,8 +5,6 @@ import importlib.util
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from inverse import POSITION_TOLERANCE, ROTATION_TOLERANCE, Arm, Solver, register
 
 
@@ -71,8 +69,8 @@ class ClosedForm(Ours):
         return self.tk.ik_all(self.chain, T, seed=q0)
 
     def answer(self, result: Any) -> tuple[Any, bool]:
-        q = np.asarray(getattr(result, "q", result))
-        return (q[0], True) if len(q) else (None, False)
+        exact = result.q[result.exact]
+        return (exact[0], True) if len(exact) else (None, False)
 
 
 @register

@@ -14,7 +14,7 @@ from inverse.urdf import joints
 class RoboticsToolbox(Solver):
     name = "rtb"
     title = "RTB LM"
-    note = "ETS.ik_LM: Chan, its defaults of 30 steps and 100 starts, tol 5e-11, half of 1e-5 squared"
+    note = "ETS.ik_LM: Chan, its 30 steps and 100 starts, tol 5e-11, half of 1e-5 squared"
     packages = ("roboticstoolbox-python",)
 
     @staticmethod

@@ -13,7 +13,7 @@ namespace thing_kin {
 
 struct KdlIkOptions {
   double position_tolerance = 1e-7;  ///< m
-  double rotation_tolerance = 1e-7;  ///< rad
+  double rotation_tolerance = 1e-6;  ///< rad; KDL takes a smaller rotation for none
   int max_iterations = 10000;        ///< of all attempts together
   int max_restarts = 100;
   double deadline = std::numeric_limits<double>::infinity();  ///< s
