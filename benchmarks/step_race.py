@@ -3,8 +3,8 @@
     python benchmarks/step_race.py [--count N] [--peers DIRECTORY] [--out FILE.json]
 
 The Thing at random configurations, in each of which two joints are at, or close to, a limit; the
-hand's target is up to a tenth of a radian or a meter a joint away, the base's half of that. A step of
-0.05 s has to keep joint and velocity limits, to 1e-6.
+hand's target is up to a tenth of a radian or a meter a joint away, the base's half of that. A step
+of 0.05 s has to keep joint and velocity limits, to 1e-6.
 """
 
 import argparse

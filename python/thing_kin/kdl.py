@@ -81,7 +81,7 @@ def ik(
     >>> result.success, bool(np.allclose(arm.fk(result.q), T, atol=1e-6))
     (True, True)
     """
-    return _kdl.ik(
+    result: IkResult | IkBatchResult = _kdl.ik(
         chain,
         target,
         seed,
@@ -93,6 +93,7 @@ def ik(
         rng=_number(rng),
         threads=threads,
     )
+    return result
 
 
 def _number(rng: SupportsIndex | np.random.Generator) -> int:
