@@ -1,7 +1,6 @@
 #include "array.hpp"
 
 #include <cmath>
-#include <sstream>
 
 #include "thing_kin/core/error.hpp"
 #include "thing_kin/core/finite.hpp"
@@ -10,23 +9,6 @@
 namespace thing_kin::python {
 
 namespace {
-
-// What users have instead of a matrix, known by what it offers, so that nothing is imported:
-// rotations and rigid transforms of SciPy, quaternions of Pinocchio, several poses of spatialmath.
-// (Pinocchio's SE3 and a single pose of spatialmath are arrays to numpy already.)
-py::object as_matrix(py::handle argument) {
-  if (py::hasattr(argument, "as_matrix")) {
-    return argument.attr("as_matrix")();
-  }
-  // The rotation of a zero quaternion would be the identity.
-  if (py::hasattr(argument, "toRotationMatrix") && argument.attr("norm")().cast<double>() > 0.5) {
-    return argument.attr("toRotationMatrix")();
-  }
-  if (py::hasattr(argument, "isSE") && py::hasattr(argument, "A")) {
-    return argument.attr("A");
-  }
-  return py::reinterpret_borrow<py::object>(argument);
-}
 
 // A conversion that loses nothing a user could have meant: numbers that are real, of any width.
 py::array to_float64(py::handle argument, const char* name, bool matrix) {
@@ -49,16 +31,6 @@ py::array to_float64(py::handle argument, const char* name, bool matrix) {
     throw InvalidArgument(name, py::str(py::type::of(argument).attr("__name__")),
                           "an array of real numbers");
   }
-}
-
-std::string shape_text(const py::ssize_t* shape, py::ssize_t dimensions, const char* lead = "") {
-  std::ostringstream out;
-  out << '(' << lead;
-  for (py::ssize_t i = 0; i < dimensions; ++i) {
-    out << shape[i] << (i + 1 < dimensions ? ", " : "");
-  }
-  out << (dimensions == 1 && *lead == '\0' ? ",)" : ")");
-  return out.str();
 }
 
 void check_finite(const Batch& batch, const char* name) {
@@ -91,6 +63,28 @@ py::object as_float64(py::handle argument, const char* name, bool matrix = false
 
 }  // namespace
 
+py::object as_matrix(py::handle argument) {
+  if (py::hasattr(argument, "as_matrix")) {
+    return argument.attr("as_matrix")();
+  }
+  // The rotation of a zero quaternion would be the identity.
+  if (py::hasattr(argument, "toRotationMatrix") && argument.attr("norm")().cast<double>() > 0.5) {
+    return argument.attr("toRotationMatrix")();
+  }
+  if (py::hasattr(argument, "isSE") && py::hasattr(argument, "A")) {
+    return argument.attr("A");
+  }
+  return py::reinterpret_borrow<py::object>(argument);
+}
+
+std::string shape_text(const py::ssize_t* lengths, py::ssize_t dimensions, bool stack) {
+  std::string text(stack ? "(N" : "(");
+  for (py::ssize_t i = 0; i < dimensions; ++i) {
+    text.append(i > 0 || stack ? ", " : "").append(std::to_string(lengths[i]));
+  }
+  return text.append(dimensions + (stack ? 1 : 0) == 1 ? ",)" : ")");
+}
+
 Batch read(py::handle argument, const char* name, const std::vector<py::ssize_t>& item,
            bool batches, Finite finite) {
   Batch batch;
@@ -105,7 +99,7 @@ Batch read(py::handle argument, const char* name, const std::vector<py::ssize_t>
   if (!fits) {
     std::string expected = dimensions == 0 ? "a number" : shape_text(item.data(), dimensions);
     if (batches) {
-      expected += " or " + shape_text(item.data(), dimensions, "N, ");
+      expected += " or " + shape_text(item.data(), dimensions, true);
     }
     throw InvalidArgument(name, "shape " + shape_text(array->dimensions, array->nd), expected);
   }
@@ -182,13 +176,17 @@ Array make_array(const py::ssize_t* shape, int dimensions) {
   return py::reinterpret_steal<Array>(array);
 }
 
-Array make_array(const Batch& batch, std::initializer_list<py::ssize_t> item) {
-  std::array<py::ssize_t, 5> shape{batch.count};
-  int dimensions = batch.single ? 0 : 1;
+Shape shape_of(const Batch& batch, std::initializer_list<py::ssize_t> item) {
+  Shape shape{{batch.count}, batch.single ? 0 : 1};
   for (const py::ssize_t length : item) {
-    shape[static_cast<std::size_t>(dimensions++)] = length;
+    shape.lengths[static_cast<std::size_t>(shape.dimensions++)] = length;
   }
-  return make_array(shape.data(), dimensions);
+  return shape;
+}
+
+Array make_array(const Batch& batch, std::initializer_list<py::ssize_t> item) {
+  const Shape shape = shape_of(batch, item);
+  return make_array(shape.lengths.data(), shape.dimensions);
 }
 
 Array frozen(const JointVector& v) {

@@ -4,6 +4,7 @@
 // error if it is wrong. C-ordered float64 input is read in place; anything else is converted.
 
 #include <array>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,11 @@ struct Batch {
 /// Limits may be infinite, nothing else.
 enum class Finite : bool { kNo, kYes };
 
+/// What users have instead of a matrix, known by what it offers, so that nothing is imported:
+/// rotations and rigid transforms of SciPy, quaternions of Pinocchio, several poses of spatialmath.
+/// (Pinocchio's SE3 and a single pose of spatialmath are arrays to numpy already.) Else as it is.
+py::object as_matrix(py::handle argument);
+
 /// Reads one item of shape `item` or, if `batches`, a stack of them. Throws InvalidArgument for a
 /// wrong shape, a dtype that is not real numbers, NaN or inf.
 Batch read(py::handle argument, const char* name, const std::vector<py::ssize_t>& item,
@@ -70,7 +76,19 @@ Batch read_vectors(py::handle argument, const char* name, py::ssize_t n);
 /// One matrix of any shape up to kMaxDof on a side, or a stack of them; `rows`, `cols` are set.
 Batch read_matrices(py::handle argument, const char* name, py::ssize_t& rows, py::ssize_t& cols);
 
-/// A new C-ordered array: shape `item`, with a leading axis if the batch has one.
+/// The shape of a batch's results.
+struct Shape {
+  std::array<py::ssize_t, 5> lengths{};
+  int dimensions = 0;
+};
+
+/// `item`, with a leading axis if the batch has one.
+Shape shape_of(const Batch& batch, std::initializer_list<py::ssize_t> item);
+
+/// As Python writes it; a stack's begins with N.
+std::string shape_text(const py::ssize_t* lengths, py::ssize_t dimensions, bool stack = false);
+
+/// A new C-ordered array for the results of a batch, shaped as shape_of() says.
 Array make_array(const Batch& batch, std::initializer_list<py::ssize_t> item);
 
 /// A new C-ordered array.

@@ -24,6 +24,7 @@ void bind_null_space(py::module_& m);
 
 void bind_dh(py::module_& m);
 ChainClass bind_chain(py::module_& m);
+void bind_chain_description(ChainClass& chain);
 void bind_joint_difference(ChainClass& chain);
 void bind_urdf(ChainClass& chain);
 void bind_omni_base(py::module_& m);

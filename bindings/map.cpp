@@ -1,7 +1,6 @@
 #include "map.hpp"
 
 #include <algorithm>
-#include <array>
 #include <functional>
 
 #include "thing_kin/core/error.hpp"
@@ -25,19 +24,10 @@ bool is_positive_index(PyObject* value, int& result) {
   return number >= 1;
 }
 
-bool overlap(const Batch& batch, const Array& out) {
+bool overlap(const double* numbers, py::ssize_t size, const Array& out) {
   const double* first = out.data();
   const std::less<> before;
-  return before(batch.data, first + out.size()) &&
-         before(first, batch.data + batch.count * batch.size);
-}
-
-std::string shape_text(const py::ssize_t* shape, int dimensions) {
-  std::string text(1, '(');
-  for (int i = 0; i < dimensions; ++i) {
-    text.append(std::to_string(shape[i])).append(i + 1 < dimensions ? ", " : "");
-  }
-  return text.append(dimensions == 1 ? ",)" : ")");
+  return before(numbers, first + out.size()) && before(first, numbers + size);
 }
 
 std::string description_of(const py::handle& out) {
@@ -46,7 +36,7 @@ std::string description_of(const py::handle& out) {
   }
   const auto array = py::reinterpret_borrow<py::array>(out);
   std::string text = py::str(array.dtype());
-  text.append(" of shape ").append(shape_text(array.shape(), static_cast<int>(array.ndim())));
+  text.append(" of shape ").append(shape_text(array.shape(), array.ndim()));
   if (!array.writeable()) {
     return text.append(", read-only");
   }
@@ -55,7 +45,8 @@ std::string description_of(const py::handle& out) {
 }
 
 // The array to write to, if it can be written to as it is.
-Array checked(const OutArray& out, const py::ssize_t* shape, int dimensions) {
+Array checked(const OutArray& out, const Shape& shape) {
+  const py::ssize_t* const lengths = shape.lengths.data();
   constexpr int kWritable = py::detail::npy_api::NPY_ARRAY_C_CONTIGUOUS_ |
                             py::detail::npy_api::NPY_ARRAY_ALIGNED_ |
                             py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
@@ -63,13 +54,13 @@ Array checked(const OutArray& out, const py::ssize_t* shape, int dimensions) {
   if (fits) {
     const auto array = py::reinterpret_borrow<py::array>(out);
     fits = array.dtype().equal(py::dtype::of<double>()) &&
-           (array.flags() & kWritable) == kWritable && array.ndim() == dimensions &&
-           std::equal(shape, shape + dimensions, array.shape());
+           (array.flags() & kWritable) == kWritable && array.ndim() == shape.dimensions &&
+           std::equal(lengths, lengths + shape.dimensions, array.shape());
   }
   if (!fits) {
     throw InvalidArgument("out", description_of(out),
                           std::string("a writeable float64 array of shape ")
-                              .append(shape_text(shape, dimensions))
+                              .append(shape_text(lengths, shape.dimensions))
                               .append(" in C order"));
   }
   return py::reinterpret_borrow<Array>(out);
@@ -87,22 +78,20 @@ int read_threads(const ThreadCount& threads) {
 
 Array make_output(const Batch& batch, std::initializer_list<py::ssize_t> item,
                   const OutArray& out) {
-  if (out.is_none()) {
-    return make_array(batch, item);
-  }
-  std::array<py::ssize_t, 5> shape{batch.count};
-  int dimensions = batch.single ? 0 : 1;
-  for (const py::ssize_t length : item) {
-    shape[static_cast<std::size_t>(dimensions++)] = length;
-  }
-  return checked(out, shape.data(), dimensions);
+  return out.is_none() ? make_array(batch, item) : checked(out, shape_of(batch, item));
 }
 
 void detach(Batch& batch, const Array& out) {
-  if (overlap(batch, out)) {
+  if (overlap(batch.data, batch.count * batch.size, out)) {
     const Array copy(batch.count * batch.size, batch.data);
     batch.data = copy.data();
     batch.owner = copy;
+  }
+}
+
+void check_apart(const Array& first, const Array& second) {
+  if (overlap(first.data(), first.size(), second)) {
+    throw InvalidArgument("out", "two arrays that share memory", "arrays of their own memory");
   }
 }
 

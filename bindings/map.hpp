@@ -42,6 +42,9 @@ Array make_output(const Batch& batch, std::initializer_list<py::ssize_t> item, c
 /// Copies an input that shares memory with the output.
 void detach(Batch& batch, const Array& out);
 
+/// Throws InvalidArgument if two outputs of one call share memory.
+void check_apart(const Array& first, const Array& second);
+
 /// Rows a thread gets at least where a row costs some microseconds.
 inline constexpr std::size_t kCostlyRowsPerThread = 64;
 /// The same where it costs some tenths.

@@ -23,6 +23,7 @@ PYBIND11_MODULE(_core, m) {
 
   bind_dh(m);
   ChainClass chain = bind_chain(m);
+  bind_chain_description(chain);
   bind_joint_difference(chain);
   bind_urdf(chain);
   bind_omni_base(m);

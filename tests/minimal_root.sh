@@ -63,8 +63,8 @@ done
 
 # --- The command in it -----------------------------------------------------------------------------
 
-git clone --quiet --no-local "$repository" "$root/root/thing_kin"
-echo "minimal_root: $(git -C "$root/root/thing_kin" log -1 --format='%h %s'): $command"
+git clone --quiet --no-local "$repository" "$root/thing_kin"
+echo "minimal_root: $(git -C "$root/thing_kin" log -1 --format='%h %s'): $command"
 
 # A clean environment but for the ways out. Indexes and wheels that are files of this machine are
 # left behind: the new root could not read them.
@@ -82,6 +82,6 @@ done
 # shellcheck disable=SC2016 # expanded inside
 env -i "$@" unshare --mount --pid --fork --kill-child --mount-proc="$root/proc" sh -c '
     mount -t tmpfs tmpfs "$1/dev/shm"
-    exec chroot "$1" sh -c "cd /root/thing_kin && $2"
+    exec chroot "$1" sh -c "cd /thing_kin && $2"
 ' sh "$root" "$command" </dev/null
 echo "minimal_root: passed"

@@ -1,5 +1,6 @@
 """Batches in lanes and threads: every level of instructions, every size, every `out`."""
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -61,6 +62,51 @@ def test_levels_differ_by_rounding_only(frame: str) -> None:
             assert_close(got, expected, atol=3e-14)
 
 
+@pytest.mark.usefixtures("restored_level")
+@pytest.mark.parametrize("level", available_levels())
+@pytest.mark.parametrize("frame", ["world_aligned", "body", "world"])
+def test_jacobians_are_those_of_single_postures_in_every_frame(frame: str, level: str) -> None:
+    tk.use_simd_level(level)
+    Q = THING.random(11, rng=8)
+    for of, point in (("tool", None), ("wrist_1", None), ("wrist_1", [0.3, -0.2, 0.1])):
+        singles = np.stack([THING.jacobian(q, frame, of, point) for q in Q])
+        assert_close(THING.jacobian(Q, frame, of, point), singles, atol=3e-14)
+        if point is None:
+            T, J = THING.fk_and_jacobian(Q, frame, of)
+            assert_close(T, THING.fk(Q, of), atol=3e-14)
+            assert_close(J, singles, atol=3e-14)
+
+
+HALF_TURNS = [
+    np.array(axis) / np.linalg.norm(axis)
+    for axis in (
+        *((1, 0, 0), (0, 1, 0), (0, 0, 1), (0, 1, -2), (0, -2, 1), (1, -1, 0), (-1, 1, 0)),
+        *((0.5, -1, 0.2), (-0.2, 0.1, 0.7), (0.3, 0.3, -0.4), (1, 2, 3), (0.1, -0.9, -0.2)),
+        *((1e-16, -1, 0.3), (-1e-16, 1, 0), (-1e-16, 1e-16, 1), (1e-16, -1e-16, 1)),
+    )
+]
+
+
+@pytest.mark.usefixtures("restored_level")
+@pytest.mark.parametrize("level", available_levels())
+@pytest.mark.parametrize("axis", HALF_TURNS, ids=str)
+def test_quaternions_of_half_turns(axis: NDArray[np.float64], level: str) -> None:
+    """w = 0 exactly, and the first of x, y, z that is more than rounding is positive."""
+    tk.use_simd_level(level)
+    tool = np.eye(4)
+    tool[:3, :3] = tk.lie.so3_exp(np.pi * axis)
+    arm = tk.Chain.from_dh([tk.DH(joint="revolute")]).with_tool(tool)
+    Q = np.array([0.0, 1e-9, -1e-9, 0.3, -0.3, 0.0, 2.0, -2.0, 0.0])[:, None]
+    first = axis[np.abs(axis) > 1e-15][0]
+    for rows in (Q, Q[:1]):
+        quaternions = arm.fk_quaternion(rows)[:, 3:]
+        for quaternion in quaternions[rows[:, 0] == 0.0]:
+            assert quaternion[0] == 0.0
+            assert_close(quaternion[1:], np.sign(first) * axis, atol=4e-16)
+        expected = tk.lie.quaternion_from_rotation(arm.fk(rows)[:, :3, :3])
+        assert_close(quaternions, expected, atol=4e-16)
+
+
 def test_an_unknown_or_missing_level_is_refused() -> None:
     with pytest.raises(ValueError, match=r"^level: got 'sse9', expected 'baseline', 'avx2'"):
         tk.use_simd_level("sse9")
@@ -102,15 +148,39 @@ def test_any_number_of_joints_in_any_order(n: int) -> None:
 
 @given(
     st.sampled_from([0.0, 4e5, 499_999.0, 500_001.0, 1e6, 1e9, 1e15, 1e22, 1e300]),
+    st.sampled_from([1.0, -1.0]),
     st.integers(0, 8),
 )
-def test_huge_angles_are_reduced_exactly(size: float, row: int) -> None:
+def test_huge_angles_are_reduced_exactly(size: float, sign: float, row: int) -> None:
     chain = tk.Chain.from_dh([tk.DH(a=1.0, joint="revolute")])
     Q = np.linspace(-3.0, 3.0, 9)[:, None]
-    Q[row] = size + 0.5 if size < 1e15 else size
+    Q[row] = sign * (size + 0.5 if size < 1e15 else size)
     expected = np.stack([np.cos(Q[:, 0]), np.sin(Q[:, 0])], axis=-1)
     assert_close(chain.fk(Q)[:, :2, 3], expected, atol=4e-16)
     assert_close(chain.fk(Q[row])[:2, 3], expected[row], atol=4e-16)
+
+
+@pytest.mark.usefixtures("restored_level")
+@pytest.mark.parametrize("level", available_levels())
+@pytest.mark.parametrize("size", [1e6, -1e9, 1e15, -1e300])
+def test_a_row_with_a_huge_angle_leaves_the_others_alone(level: str, size: float) -> None:
+    """Where one angle is huge, its neighbors go another way than usual: to the same bits."""
+    tk.use_simd_level(level)
+    small = np.arctan2(np.sin(size), np.cos(size))
+    Q = THING.random(150, rng=7)
+    functions = [getattr(THING, method) for method in METHODS]
+    functions += [lambda Q, i=i: THING.fk_and_jacobian(Q)[i] for i in range(2)]
+    for function in functions:
+        usual = function(Q)
+        for row in (0, 5, 63, 64, 130, 149):  # of whole lanes, of the rest; of every stretch
+            for joint in (0, 5, 8):  # the first and the last of the arm, the base's turn
+                unusual = Q.copy()
+                unusual[row, joint] = size
+                result = function(unusual)
+                assert_array_equal(np.delete(result, row, 0), np.delete(usual, row, 0))
+                assert_array_equal(result[row], function(unusual[row : row + 1])[0])
+                unusual[row, joint] = small
+                assert_close(result[row], function(unusual)[row], atol=3e-14)
 
 
 def test_sine_and_cosine_are_good_to_the_last_place_or_so() -> None:
@@ -151,6 +221,38 @@ def test_out_of_two_results_is_a_pair(count: int | None) -> None:
     for bad in (pair[0], pair[:1], [*pair]):
         with pytest.raises(ValueError, match=r"^out: got .*, expected a tuple of two arrays"):
             THING.fk_and_jacobian(Q, out=bad)
+
+
+def views(count: int | None, *places: int) -> tuple[NDArray[np.float64], ...]:
+    """T and J in one piece of memory, from the given places on."""
+    memory = np.zeros(1000)
+    shapes = [shape_of(method, count) for method in ("fk", "jacobian")]
+    return tuple(
+        memory[at : at + math.prod(shape)].reshape(shape)
+        for at, shape in zip(places, shapes, strict=True)
+    )
+
+
+@pytest.mark.parametrize("count", [None, 1, 5])
+def test_two_outs_that_share_memory_are_refused(count: int | None) -> None:
+    Q = THING.random(count, rng=3)
+    T_size, J_size = 16 * (count or 1), 54 * (count or 1)
+    for places in ((0, T_size), (J_size, 0)):  # side by side
+        T, J = THING.fk_and_jacobian(Q, out=views(count, *places))
+        assert_array_equal(T, THING.fk_and_jacobian(Q)[0])
+        assert_array_equal(J, THING.fk_and_jacobian(Q)[1])
+    for places in ((0, 0), (0, T_size - 1), (J_size - 1, 0), (1, 0)):
+        pair = views(count, *places)
+        with pytest.raises(ValueError, match=r"^out: got two arrays that share memory, expected"):
+            THING.fk_and_jacobian(Q, out=pair)
+        assert not pair[0].any()
+        assert not pair[1].any()
+
+
+def test_no_rows_share_no_memory() -> None:
+    memory = np.zeros(1)[:0]
+    pair = (memory.reshape(0, 4, 4), memory.reshape(0, 6, 9))
+    assert THING.fk_and_jacobian(np.empty((0, 9)), out=pair)[1] is pair[1]
 
 
 def test_out_of_a_float_result_is_an_array() -> None:

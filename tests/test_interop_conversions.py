@@ -131,6 +131,18 @@ def test_what_is_no_pose(call, bad: object) -> None:
         call(bad)
 
 
+class HalfAQuaternion:
+    def toRotationMatrix(self) -> np.ndarray:
+        return np.eye(3)
+
+
+@pytest.mark.parametrize("bad", [pin.Quaternion(0.0, 0.0, 0.0, 0.0), HalfAQuaternion()])
+def test_quaternions_that_are_no_rotation(bad: object) -> None:
+    for call in (interop.to_scipy, lambda T: interop.quaternion(T, order="wxyz")):
+        with pytest.raises(ValueError, match=r"^T: got .*, expected "):
+            call(bad)
+
+
 def test_errors_name_the_argument() -> None:
     for bad in (np.zeros(4), [np.nan, 0, 0, 1], np.eye(3), "abc"):
         with pytest.raises(ValueError, match=r"^quaternion: got .*, expected "):

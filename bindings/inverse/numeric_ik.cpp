@@ -35,13 +35,16 @@ namespace thing_kin::python {
 namespace {
 
 std::uint64_t read_rng(const RandomLike& rng) {
-  const bool generator = py::hasattr(rng, "integers");
   try {
-    const py::object number = generator
-                                  ? py::object(rng.attr("integers")(py::int_(1ULL << 63U)))
-                                  : py::reinterpret_steal<py::object>(PyNumber_Index(rng.ptr()));
-    if (number) {
-      return number.cast<std::uint64_t>();
+    if (py::isinstance<py::int_>(rng)) {
+      return rng.cast<std::uint64_t>();
+    }
+    if (py::hasattr(rng, "integers")) {
+      return rng.attr("integers")(std::uint64_t{1} << 63U).cast<std::uint64_t>();
+    }
+    const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(rng.ptr()));
+    if (index) {
+      return index.cast<std::uint64_t>();
     }
     throw py::error_already_set();
   } catch (const std::exception&) {

@@ -96,10 +96,7 @@ array([0., 2., 0., 0., 0., 1.])
       [](const Chain& c, const ArrayLike& q, const std::string& orientation, const OutArray& out,
          const ThreadCount& threads) {
         const Orientation form = orientation_from_string(orientation);
-        if (!c.base_joints()) {
-          throw InvalidArgument("robot", quoted(c.name()) + " without a base",
-                                "a robot on an omnidirectional base (on_omni_base)");
-        }
+        check_omni_base(c);
         return derivative(c, q, c.tool(), 6 + size_of(form), {out, threads},
                           [&](const Posture& posture, AnalyticJacobian& J) {
                             return task_jacobian(c, posture, form, J);

@@ -79,6 +79,7 @@ py::typing::Tuple<Array, Array> fk_and_jacobian(const Chain& c, const ArrayLike&
   const int count = read_threads(threads);
   Array T = make_output(batch, {4, 4}, out[0]);
   Array J = make_output(batch, {6, c.dof()}, out[1]);
+  check_apart(T, J);
   detach(batch, T);
   detach(batch, J);
   double* const T_out = T.mutable_data();
@@ -146,7 +147,7 @@ frame : str
 of : str or int, optional
     The frame, from `frames`; default: the last, the tool.
 out : tuple of two float64 arrays in C order, shaped as T and J, optional
-    Where the results go, and what is returned then. They must not share memory.
+    Where the results go, and what is returned then; they share no memory.
 threads : int, optional
     At most so many; default: one, and for large batches all processors. The result is the same.
 
@@ -158,7 +159,8 @@ J : (6, n) or (N, 6, n)
 Raises
 ------
 ValueError
-    If q has a wrong shape or is not finite, or there is no such frame.
+    If q has a wrong shape or is not finite, there is no such frame, or `out` is no such tuple or
+    its arrays share memory.
 
 Examples
 --------

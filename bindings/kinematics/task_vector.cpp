@@ -2,26 +2,15 @@
 
 #include "bindings.hpp"
 #include "map.hpp"
-#include "thing_kin/core/error.hpp"
+#include "model/chain.hpp"
 
 namespace thing_kin::python {
-
-namespace {
-
-void check_base(const Chain& chain) {
-  if (!chain.base_joints()) {
-    throw InvalidArgument("robot", quoted(chain.name()) + " without a base",
-                          "a robot on an omnidirectional base (on_omni_base)");
-  }
-}
-
-}  // namespace
 
 void bind_task_vector(ChainClass& chain) {
   chain.def(
       "base_pose",
       [](const Chain& c, const ArrayLike& q, const OutArray& out, const ThreadCount& threads) {
-        check_base(c);
+        check_omni_base(c);
         return map(read_vectors(q, "q", c.dof()), {3}, {out, threads},
                    [&](const double* in, double* to) {
                      Eigen::Map<Eigen::Vector3d>{to} = base_pose(c, in);
@@ -59,7 +48,7 @@ array([1. , 2. , 0.5])
       [](const Chain& c, const ArrayLike& q, const std::string& orientation, const OutArray& out,
          const ThreadCount& threads) {
         const Orientation form = orientation_from_string(orientation);
-        check_base(c);
+        check_omni_base(c);
         const Eigen::Index size = 6 + size_of(form);
         return map(read_vectors(q, "q", c.dof()), {size}, {out, threads},
                    [&](const double* in, double* to) {

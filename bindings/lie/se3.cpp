@@ -66,6 +66,8 @@ Eigen::Matrix3d rotation_of(const py::object& rpy, const py::object& quaternion)
 }  // namespace
 
 void bind_se3(py::module_& lie, py::module_& top) {
+  lie.def("as_matrix", &as_matrix, py::arg("argument"),
+          "Matrix of a pose or rotation as another library has it; anything else as it is.");
   top.def(
       "transform",
       [](const ArrayLike& xyz, const py::object& rpy, const py::object& quaternion) {

@@ -69,65 +69,6 @@ Chain with_limits(const Chain& chain, const py::object& lower, const py::object&
   return chain.with_limits(limits);
 }
 
-// --- pickling: the description as plain tuples
-
-py::tuple to_state(const SE3& T) {
-  py::list numbers;
-  for (const double x : T.rotation.reshaped()) {
-    numbers.append(x);
-  }
-  for (const double x : T.translation) {
-    numbers.append(x);
-  }
-  return py::tuple(numbers);
-}
-
-SE3 se3_from_state(const py::handle& state) {
-  const auto numbers = state.cast<std::vector<double>>();
-  if (numbers.size() != 12) {
-    throw InvalidArgument("state", std::to_string(numbers.size()) + " numbers", "12");
-  }
-  SE3 T;
-  T.rotation = Eigen::Map<const Eigen::Matrix3d>(numbers.data());
-  T.translation = Eigen::Map<const Eigen::Vector3d>(numbers.data() + 9);
-  return T;
-}
-
-py::tuple to_state(const Segment& s) {
-  return py::make_tuple(s.frame, s.joint, to_string(s.type), to_state(s.before), to_state(s.after),
-                        s.limits.lower, s.limits.upper, s.limits.velocity, s.limits.acceleration);
-}
-
-Segment segment_from_state(const py::tuple& s) {
-  return {s[0].cast<std::string>(),
-          s[1].cast<std::string>(),
-          joint_type_from_string(s[2].cast<std::string>()),
-          se3_from_state(s[3]),
-          se3_from_state(s[4]),
-          {s[5].cast<double>(), s[6].cast<double>(), s[7].cast<double>(), s[8].cast<double>()}};
-}
-
-py::tuple to_state(const Chain& chain) {
-  const ChainDescription& d = chain.description();
-  py::list segments;
-  for (const Segment& segment : d.segments) {
-    segments.append(to_state(segment));
-  }
-  return py::make_tuple(d.name, d.root, segments, d.order, d.has_omni_base);
-}
-
-Chain chain_from_state(const py::tuple& state) {
-  ChainDescription d;
-  d.name = state[0].cast<std::string>();
-  d.root = state[1].cast<std::string>();
-  for (const py::handle segment : state[2]) {
-    d.segments.push_back(segment_from_state(segment.cast<py::tuple>()));
-  }
-  d.order = state[3].cast<std::vector<int>>();
-  d.has_omni_base = state[4].cast<bool>();
-  return Chain(std::move(d));
-}
-
 }  // namespace
 
 int read_frame(const Chain& chain, const py::object& frame, const char* name) {
@@ -150,6 +91,13 @@ int read_frame(const Chain& chain, const py::object& frame, const char* name) {
   PyErr_Clear();
   throw InvalidArgument(name, std::string(py::repr(frame)),
                         "the name of a frame or an index from 0 to " + std::to_string(count - 1));
+}
+
+void check_omni_base(const Chain& chain) {
+  if (!chain.base_joints()) {
+    throw InvalidArgument("robot", quoted(chain.name()).append(" without a base"),
+                          "a robot on an omnidirectional base (on_omni_base)");
+  }
 }
 
 SmallVector read_limits(const py::object& values, const char* name, int n) {
@@ -340,9 +288,7 @@ array([3., 3., 3., 3., 3., 3.])
       .def("__repr__",
            [](const Chain& c) { return py::str("Chain({!r}, n={})").format(c.name(), c.dof()); })
       .def("__copy__", [](const Chain& c) { return c; })
-      .def("__deepcopy__", [](const Chain& c, const py::dict& /*memo*/) { return c; })
-      .def(py::pickle([](const Chain& c) { return to_state(c); },
-                      [](const py::tuple& state) { return chain_from_state(state); }));
+      .def("__deepcopy__", [](const Chain& c, const py::dict& /*memo*/) { return c; });
   return chain;
 }
 

@@ -14,6 +14,9 @@ class FrameLike : public pybind11::object {
 
 int read_frame(const Chain& chain, const pybind11::object& frame, const char* name);
 
+/// Throws InvalidArgument for a robot that stands on none.
+void check_omni_base(const Chain& chain);
+
 /// n numbers, infinities allowed.
 SmallVector read_limits(const pybind11::object& values, const char* name, int n);
 

@@ -1,5 +1,6 @@
 """Rotations SO(3), rigid transforms SE(3): exp, log, adjoint, Jacobians, quaternions, rpy."""
 
+from thing_kin._core.lie import as_matrix as as_matrix  # for thing_kin.interop, not public
 from thing_kin._core.lie import (
     quaternion_from_rotation,
     rotation_from_quaternion,

@@ -2,6 +2,10 @@
 
 #include "thing_kin/kinematics/batch.hpp"
 
+#ifdef __linux__
+#include <sched.h>
+#endif
+
 #include <stdexcept>
 #include <vector>
 
@@ -81,12 +85,9 @@ TEST_P(EveryLevel, RowsAreSinglePoses) {
     const Eigen::VectorXd q = test::random_vector(rng, static_cast<Eigen::Index>(rows) * n);
     std::vector<double> T(rows * 16);
     std::vector<double> p(rows * 7);
-    std::vector<double> J(rows * 6 * static_cast<std::size_t>(n));
     const JointBatch batch{q.data(), rows, 0};
-    const MovingPoint point(chain.tool(), Eigen::Vector3d(0.3, -0.2, 0.1));
     forward_kinematics(chain, batch, chain.tool(), PoseFormat::kMatrix, T.data());
     forward_kinematics(chain, batch, chain.tool(), PoseFormat::kPositionQuaternion, p.data());
-    geometric_jacobian(chain, batch, point, ReferenceFrame::kBody, J.data());
     for (std::size_t i = 0; i < rows; ++i) {
       const double* one = q.data() + i * static_cast<std::size_t>(n);
       const SE3 expected = forward_kinematics(chain, one, chain.tool());
@@ -97,12 +98,31 @@ TEST_P(EveryLevel, RowsAreSinglePoses) {
       const Eigen::Vector4d quaternion = quaternion_from_rotation(expected.rotation);
       EXPECT_TRUE((Eigen::Map<const Eigen::Vector4d>(p.data() + 7 * i + 3) - quaternion)
                       .isZero(kTolerance));
-      Posture posture;
-      Jacobian single;
-      place_joints(chain, one, posture);
-      geometric_jacobian(chain, posture, point, ReferenceFrame::kBody, single);
-      const double* row = J.data() + i * 6 * static_cast<std::size_t>(n);
-      EXPECT_TRUE((Eigen::Map<const RowMajor>(row, 6, n) - single).isZero(kTolerance));
+    }
+  }
+}
+
+TEST_P(EveryLevel, JacobiansAreThoseOfSinglePosturesInEveryFrame) {
+  test::Generator rng(4);
+  for (const std::size_t rows : {1U, 2U, 5U, 8U, 9U, 67U}) {
+    const Chain chain = test::random_chain(rng);
+    const auto size = 6 * static_cast<std::size_t>(chain.dof());
+    const Eigen::MatrixXd q =
+        test::random_vector(rng, static_cast<Eigen::Index>(rows) * chain.dof())
+            .reshaped(chain.dof(), static_cast<Eigen::Index>(rows));
+    std::vector<double> J(rows * size);
+    const MovingPoint point(chain.tool(), Eigen::Vector3d(0.3, -0.2, 0.1));
+    for (const auto reference :
+         {ReferenceFrame::kWorldAligned, ReferenceFrame::kBody, ReferenceFrame::kWorld}) {
+      geometric_jacobian(chain, {q.data(), rows, 0}, point, reference, J.data());
+      for (std::size_t i = 0; i < rows; ++i) {
+        Posture posture;
+        Jacobian single;
+        place_joints(chain, q.col(static_cast<Eigen::Index>(i)).data(), posture);
+        geometric_jacobian(chain, posture, point, reference, single);
+        const Eigen::Map<const RowMajor> row(J.data() + i * size, 6, chain.dof());
+        EXPECT_TRUE((row - single).isZero(kTolerance));
+      }
     }
   }
 }
@@ -159,6 +179,29 @@ TEST(Parallel, ThreadsArePaidFor) {
   EXPECT_EQ(thread_count(4, 3000, 100), 4);
   EXPECT_EQ(thread_count(0, 1'000'000, 1), available_processors());
 }
+
+#ifdef __linux__
+// As taskset, a container or a batch system does it.
+TEST(Parallel, ProcessorsThisThreadIsKeptFromAreNotCounted) {
+  cpu_set_t before;
+  ASSERT_EQ(sched_getaffinity(0, sizeof before, &before), 0);
+  const int all = available_processors();
+  EXPECT_EQ(all, CPU_COUNT(&before));
+  std::size_t first = 0;
+  while (!CPU_ISSET(first, &before)) {
+    ++first;
+  }
+  cpu_set_t one;
+  CPU_ZERO(&one);
+  CPU_SET(first, &one);
+  ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+  EXPECT_EQ(available_processors(), 1);
+  EXPECT_EQ(thread_count(0, 1'000'000, 1), 1);
+  EXPECT_EQ(thread_count(3, 1'000'000, 1), 3);
+  ASSERT_EQ(sched_setaffinity(0, sizeof before, &before), 0);
+  EXPECT_EQ(available_processors(), all);
+}
+#endif
 
 }  // namespace
 }  // namespace thing_kin

@@ -11,6 +11,7 @@
 
 #include "random_chain.hpp"
 #include "thing_kin/core/simd.hpp"
+#include "thing_kin/inverse/numeric_ik.hpp"
 #include "thing_kin/inverse/task_priority.hpp"
 #include "thing_kin/kinematics/acceleration.hpp"
 #include "thing_kin/kinematics/analytic_jacobian.hpp"
@@ -214,6 +215,29 @@ TEST(NoHeap, TaskPriorityInEverySchemeAndInverse) {
                     solver.singular_values(q.data(), targets, sigma);
                   }),
                   0);
+      }
+    }
+  }
+}
+
+TEST(NoHeap, NumericIk) {
+  const Chain robot = robots::thing();
+  test::Generator rng(9);
+  const JointVector seed = test::random_vector(rng, 9);
+  const JointVector goal = seed + test::random_vector(rng, 9, 0.3);
+  SE3 target = forward_kinematics(robot, goal.data(), robot.tool());
+  for (const double far : {0.0, 30.0}) {
+    target.translation.z() += far;
+    for (const IkObjective objective : {IkObjective::kNone, IkObjective::kSeed,
+                                        IkObjective::kLimits, IkObjective::kManipulability}) {
+      for (const bool nearest : {false, true}) {
+        IkOptions options;
+        options.objective = objective;
+        options.nearest = nearest;
+        const NumericIk solver(robot, robot.tool(), options);
+        IkResult result;
+        EXPECT_EQ(allocations_in([&] { result = solver.solve(target, seed.data()); }), 0);
+        EXPECT_EQ(result.success(), far == 0.0);
       }
     }
   }

@@ -35,9 +35,12 @@ void expand(const IkProblem& problem, const IkPoint& point, Quadratic& cost) noe
   geometric_jacobian(problem.chain, posture, problem.frame, ReferenceFrame::kWorldAligned, J);
   Hessian dJ;
   geometric_hessian(problem.chain, posture, problem.frame, ReferenceFrame::kWorldAligned, dJ);
-  Jacobian weighed = J;
-  residual.weigh(point.value, weighed);
-  const Vector6 force = residual.force(point.value);
+  const RowFactors M = residual.derivative(point.value);
+  Jacobian weighed(6, J.cols());
+  for (Eigen::Index j = 0; j < J.cols(); ++j) {
+    weighed.col(j) = M * J.col(j);
+  }
+  const Vector6 force = M.transposed() * point.value.e;
   cost.gradient = -(weighed.transpose() * point.value.e);
   cost.hessian.noalias() = weighed.transpose() * weighed;
   cost.scale = 0.0;

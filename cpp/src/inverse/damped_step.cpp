@@ -1,76 +1,49 @@
 #include "damped_step.hpp"
 
-#include <bitset>
+#include <algorithm>
+#include <cmath>
 
 namespace thing_kin {
 
 namespace {
 
-using Pinned = std::bitset<kMaxDof>;
-
-// A = L D L^T in place, without pivoting: A is positive definite by its damping.
-void solve_in_place(Matrix6& A, Vector6& x) noexcept {
-  Vector6 inverse;
-  for (int k = 0; k < 6; ++k) {
-    inverse[k] = 1.0 / A(k, k);
-    for (int i = k + 1; i < 6; ++i) {
-      const double factor = A(i, k) * inverse[k];
-      for (int j = i; j < 6; ++j) {
-        A(j, i) -= factor * A(j, k);
-      }
-      x[i] -= factor * x[k];
-    }
+// The part of dq that no rotary joint turns by more than `most` in.
+double shortened(const JointBox& box, const JointVector& dq, double most) noexcept {
+  double turn = 0.0;
+  for (Eigen::Index j = 0; j < dq.size(); ++j) {
+    turn = box.is_rotary(j) ? std::max(turn, std::abs(dq[j])) : turn;
   }
-  for (int k = 5; k >= 0; --k) {
-    for (int i = k + 1; i < 6; ++i) {
-      x[k] -= A(i, k) * x[i];
-    }
-    x[k] *= inverse[k];
-  }
-}
-
-Vector6 solve_free(const Jacobian& J, const JointVector& mobility, const Pinned& pinned,
-                   double lambda, Vector6 e) noexcept {
-  Matrix6 A = lambda * Matrix6::Identity();
-  for (Eigen::Index j = 0; j < J.cols(); ++j) {
-    if (!pinned[static_cast<std::size_t>(j)]) {
-      const Vector6 c = J.col(j);
-      A.noalias() += c * (mobility[j] * c).transpose();
-    }
-  }
-  solve_in_place(A, e);
-  return e;
+  return turn > most ? most / turn : 1.0;
 }
 
 }  // namespace
 
-void take_damped_step(const Jacobian& J, const Vector6& e, const JointVector& mobility,
-                      const JointVector& z, const StepDamping& damping, const JointBox& box,
-                      JointVector& q) noexcept {
+void take_damped_step(const Jacobian& J, const RowFactors& M, Vector6 e,
+                      const JointVector& mobility, const double* z, const StepDamping& damping,
+                      const JointBox& box, JointVector& q) noexcept {
   const Eigen::Index n = J.cols();
   JointVector next = q;
-  Vector6 rest = e;
-  rest.noalias() -= J * z;
-  Pinned pinned;
+  JointVector free = mobility;  // 0: on a side of the box
+  JointVector dq(n);
+  for (Eigen::Index j = 0; z != nullptr && j < n; ++j) {
+    e -= z[j] * (M * J.col(j));
+  }
   for (Eigen::Index round = 0; round <= n; ++round) {
-    const Vector6 y = solve_free(J, mobility, pinned, damping.lambda, rest);
-    JointVector dq(n);
-    double turn = 0.0;
-    for (Eigen::Index j = 0; j < n; ++j) {
-      dq[j] = pinned[static_cast<std::size_t>(j)] ? 0.0 : z[j] + mobility[j] * J.col(j).dot(y);
-      turn = box.is_rotary(j) ? std::max(turn, std::abs(dq[j])) : turn;
+    damped_inverse(J, M, free.data(), damping.lambda, e, dq.data());
+    for (Eigen::Index j = 0; z != nullptr && j < n; ++j) {
+      dq[j] += free[j] > 0.0 ? z[j] : 0.0;
     }
-    const double scale = turn > damping.largest_turn ? damping.largest_turn / turn : 1.0;
+    const double part = shortened(box, dq, damping.largest_turn);
     bool again = false;
     for (Eigen::Index j = 0; j < n; ++j) {
-      if (pinned[static_cast<std::size_t>(j)]) {
+      if (free[j] == 0.0) {
         continue;
       }
-      const double x = q[j] + scale * dq[j];
+      const double x = q[j] + part * dq[j];
       next[j] = box.inside(j, x);
       if (next[j] != x && !box.is_endless(j)) {
-        pinned.set(static_cast<std::size_t>(j));
-        rest -= (next[j] - q[j] - z[j]) * J.col(j);
+        free[j] = 0.0;
+        e -= (next[j] - q[j] - (z != nullptr ? z[j] : 0.0)) * (M * J.col(j));
         again = true;
       }
     }

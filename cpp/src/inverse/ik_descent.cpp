@@ -15,7 +15,7 @@ namespace {
 // is poor; at the solution only enough to keep the normal matrix definite in rounding, so that
 // convergence stays quadratic, and fast at a singularity.
 constexpr double kDamping = 0.05;
-constexpr double kLeastDamping = 1e-12;
+constexpr double kLeastDamping = 1e-16;
 
 constexpr double kLargestTurn = std::numbers::pi / 2;
 
@@ -29,7 +29,6 @@ constexpr double kProgress = 0.3;
 bool descend(const IkProblem& problem, int most, IkPoint& point, int& iterations) noexcept {
   const auto& [chain, frame, residual, box, mobility, position_tolerance, rotation_tolerance] =
       problem;
-  const JointVector still = JointVector::Zero(chain.dof());
   JointVector q = point.q;
   PoseResidual::Value value;
   Posture posture;
@@ -44,19 +43,20 @@ bool descend(const IkProblem& problem, int most, IkPoint& point, int& iterations
     const double cost = value.cost();
     if (cost < best) {
       best = cost;
-      point = {q, value};
+      point.q = q;
+      point.value = value;
     }
     if (problem.is_reached(value)) {
-      point = {q, value};
+      point.q = q;
+      point.value = value;
       return true;
     }
     if (cost > kProgress * std::exchange(earlier[i % kLeash], cost)) {
       return false;
     }
     geometric_jacobian(chain, posture, frame, ReferenceFrame::kWorldAligned, J);
-    residual.weigh(value, J);
-    take_damped_step(J, value.e, mobility, still, {kDamping * cost + kLeastDamping, kLargestTurn},
-                     box, q);
+    take_damped_step(J, residual.derivative(value), value.e, mobility, nullptr,
+                     {kDamping * cost + kLeastDamping, kLargestTurn}, box, q);
   }
   return false;
 }

@@ -11,7 +11,7 @@ namespace thing_kin {
 
 namespace {
 
-constexpr int kMostSteps = 60;
+constexpr int kMostSteps = 100;
 constexpr double kLargestTurn = std::numbers::pi / 4;
 
 // A relative gain below this, or a step shortened so often, is the end.
@@ -78,10 +78,10 @@ void improve(const IkProblem& problem, const IkMeasure& measure, IkPoint& point,
     Jacobian J;
     place_joints(problem.chain, point.q.data(), posture);
     geometric_jacobian(problem.chain, posture, problem.frame, ReferenceFrame::kWorldAligned, J);
-    problem.residual.weigh(point.value, J);
+    const JointVector way = part * measure.descent(point.q);
     IkPoint next = point;
-    take_damped_step(J, point.value.e, measure.mobility(), part * measure.descent(point.q),
-                     {1e-12, kLargestTurn}, problem.box, next.q);
+    take_damped_step(J, problem.residual.derivative(point.value), point.value.e, measure.mobility(),
+                     way.data(), {1e-12, kLargestTurn}, problem.box, next.q);
     const bool reached = descend(problem, kReturn, next, iterations);
     const double gain = value - measure(next.q);
     if (!reached || !(gain > 0.0)) {
@@ -90,7 +90,7 @@ void improve(const IkProblem& problem, const IkMeasure& measure, IkPoint& point,
     }
     point = next;
     value -= gain;
-    part = std::min(1.0, 2.0 * part);
+    part = std::min(measure.longest_step(), 2.0 * part);
     if (gain < kLeastGain * (std::abs(value) + kLeastGain)) {
       return;
     }

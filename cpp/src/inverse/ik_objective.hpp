@@ -17,6 +17,9 @@ class IkMeasure {
   /// The way of steepest descent in the metric, with no regard to the target.
   JointVector descent(const JointVector& q) const noexcept;
 
+  /// How much longer than the descent a step may be: a quadratic's is Newton's, and needs no more.
+  double longest_step() const { return objective_ == IkObjective::kManipulability ? 64.0 : 1.0; }
+
   /// The inverse of the metric, a diagonal.
   const JointVector& mobility() const { return mobility_; }
 

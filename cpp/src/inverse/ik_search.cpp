@@ -1,6 +1,7 @@
 #include "ik_search.hpp"
 
-#include <cmath>
+#include <algorithm>
+#include <limits>
 
 #include "ik_objective.hpp"
 
@@ -14,7 +15,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int kMostIterations = 40;
 
 // Where the target is certainly out of reach, more would only search for a closer pose.
-constexpr int kAttemptsOutOfReach = 8;
+constexpr int kAttemptsOutOfReach = 16;
 
 // For the closest pose of a target out of reach.
 constexpr int kMostPolishing = 200;
@@ -22,8 +23,9 @@ constexpr int kMostPolishing = 200;
 // Of the arm's length: how near a base drives before the arm is asked.
 constexpr double kComfortableReach = 0.5;
 
-// Attempts from around the seed, nearest first, when the nearest solution is wanted.
-constexpr int kAttemptsAround = 16;
+// Attempts when the nearest solution is wanted: half of them around the seed, nearest first, half
+// from anywhere.
+constexpr int kAttemptsAround = 32;
 
 JointVector inside(const JointBox& box, const double* seed, Eigen::Index n) {
   JointVector q(n);
@@ -41,6 +43,17 @@ JointBox box_around(JointBox box, const JointVector& seed, const JointVector& ma
 }
 
 }  // namespace
+
+void NearMisses::add(const IkPoint& point) noexcept {
+  const auto behind = [&](const IkPoint& other) { return point.value.cost() < other.value.cost(); };
+  const auto place = std::find_if(points_.begin(), points_.begin() + count_, behind);
+  if (place == points_.end()) {
+    return;
+  }
+  count_ = std::min(count_ + 1, points_.size());
+  std::move_backward(place, points_.begin() + count_ - 1, points_.begin() + count_);
+  *place = point;
+}
 
 IkSearch::IkSearch(const NumericIk& solver, const SE3& target, const double* seed) noexcept
     : solver_(solver),
@@ -81,12 +94,12 @@ bool IkSearch::attempt(const JointVector& start) noexcept {
                          point.q.data());
   }
   const int most = std::min(kMostIterations, options_.max_iterations - iterations_);
-  const bool reached = descend(problem_, most, point, iterations_);
-  if (reached || point.value.cost() < least_) {
+  if (descend(problem_, most, point, iterations_)) {
     best_ = point;
-    least_ = point.value.cost();
+    return true;
   }
-  return reached;
+  misses_.add(point);
+  return false;
 }
 
 bool IkSearch::restart() noexcept {
@@ -122,7 +135,8 @@ void IkSearch::search_nearer() noexcept {
        ++i) {
     JointVector start;
     samples_.next(start);
-    start = seed_ + (static_cast<double>(i) / kAttemptsAround) * (start - seed_);
+    const double part = std::min(1.0, 2.0 * i / kAttemptsAround);
+    start = seed_ + part * (start - seed_);
     if (!attempt(start)) {
       continue;
     }
@@ -144,16 +158,30 @@ IkResult IkSearch::found() noexcept {
 }
 
 IkResult IkSearch::failed() noexcept {
-  Rest rest;
   if (attempts_ == 0) {  // no time for even one
     best_.q = samples_.middle();
-  } else {
-    rest = find_closest_pose(problem_, kMostPolishing, best_, iterations_);
+    return result(IkStatus::kDeadline);
   }
+  const Rest rest = come_nearest();
   if (has_seed_) {
     problem_.box.wind_towards(seed_, best_.q);
   }
   return result(reason(rest));
+}
+
+// The cost has many minima where it can't be zero: several attempts are brought to theirs.
+Rest IkSearch::come_nearest() noexcept {
+  Rest best;
+  double least = std::numeric_limits<double>::infinity();
+  for (IkPoint& point : misses_.nearest()) {
+    const Rest rest = find_closest_pose(problem_, kMostPolishing, point, iterations_);
+    if (point.value.cost() < least) {
+      least = point.value.cost();
+      best_ = point;
+      best = rest;
+    }
+  }
+  return best;
 }
 
 IkStatus IkSearch::reason(const Rest& rest) const noexcept {

@@ -1,7 +1,8 @@
 #pragma once
 
+#include <array>
 #include <chrono>
-#include <limits>
+#include <span>
 
 #include "closest_pose.hpp"
 #include "ik_descent.hpp"
@@ -9,6 +10,17 @@
 #include "thing_kin/inverse/numeric_ik.hpp"
 
 namespace thing_kin {
+
+/// The ends of the attempts that came nearest, the nearest first.
+class NearMisses {
+ public:
+  void add(const IkPoint& point) noexcept;
+  std::span<IkPoint> nearest() noexcept { return {points_.data(), count_}; }
+
+ private:
+  std::array<IkPoint, 8> points_;
+  std::size_t count_ = 0;
+};
 
 /// One solve of NumericIk: its attempts in order, and the best of them.
 class IkSearch {
@@ -26,6 +38,7 @@ class IkSearch {
   double elapsed() const noexcept;
   IkResult found() noexcept;
   IkResult failed() noexcept;
+  Rest come_nearest() noexcept;
   IkStatus reason(const Rest& rest) const noexcept;
   IkResult result(IkStatus status) const noexcept;
 
@@ -37,7 +50,7 @@ class IkSearch {
   IkSamples samples_;
   std::chrono::steady_clock::time_point begin_;
   IkPoint best_;
-  double least_ = std::numeric_limits<double>::infinity();
+  NearMisses misses_;
   int iterations_ = 0;
   int attempts_ = 0;
 };

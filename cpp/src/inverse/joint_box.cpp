@@ -10,6 +10,15 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
+// from + step, rounded so that the way back is no longer than the step in floating point too.
+double within(double from, double step) noexcept {
+  double to = from + step;
+  while (std::isfinite(to) && std::abs(to - from) > std::abs(step)) {
+    to = std::nextafter(to, from);
+  }
+  return to;
+}
+
 }  // namespace
 
 JointBox::JointBox(const Chain& chain) noexcept : lower_(chain.lower()), upper_(chain.upper()) {
@@ -22,8 +31,8 @@ JointBox::JointBox(const Chain& chain) noexcept : lower_(chain.lower()), upper_(
 
 void JointBox::keep_near(const JointVector& seed, const JointVector& max_step) noexcept {
   for (Eigen::Index j = 0; j < lower_.size(); ++j) {
-    lower_[j] = std::max(lower_[j], seed[j] - max_step[j]);
-    upper_[j] = std::min(upper_[j], seed[j] + max_step[j]);
+    lower_[j] = std::max(lower_[j], within(seed[j], -max_step[j]));
+    upper_[j] = std::min(upper_[j], within(seed[j], max_step[j]));
     const auto i = static_cast<std::size_t>(j);
     endless_[i] = endless_[i] && upper_[j] - lower_[j] >= kTurn;
   }

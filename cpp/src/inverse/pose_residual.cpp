@@ -1,5 +1,7 @@
 #include "thing_kin/inverse/pose_residual.hpp"
 
+#include <cmath>
+
 #include "thing_kin/core/error.hpp"
 #include "thing_kin/core/tolerance.hpp"
 #include "thing_kin/lie/so3.hpp"
@@ -28,6 +30,18 @@ SE3 orthonormal(const SE3& T) {
   return {rotation_from_quaternion(quaternion_from_rotation(T.rotation)), T.translation};
 }
 
+// As so3_log, with the coefficient of its derivative, which has the same half angle h.
+void set_log(const Eigen::Matrix3d& R, PoseResidual::Value& value) {
+  const Eigen::Vector4d q = quaternion_from_rotation(R);
+  const double sine = q.tail<3>().norm();
+  constexpr double kSmall = 1e-2;  // here (1 - h cot h)/(4 h^2) would cancel
+  const double h = sine < 1e-8 ? sine / q[0] : std::atan2(sine, q[0]);
+  value.log = (sine < 1e-8 ? 2.0 / q[0] : 2.0 * h / sine) * q.tail<3>();
+  const double square = 4.0 * h * h;
+  value.curvature = sine < kSmall ? 1.0 / 12 + square * (1.0 / 720 + square / 30240)
+                                  : (1.0 - h * q[0] / sine) / square;
+}
+
 }  // namespace
 
 PoseResidual::PoseResidual(const SE3& target, const PoseWeights& weights, double length) noexcept
@@ -45,9 +59,10 @@ PoseResidual::PoseResidual(const SE3& target, const PoseWeights& weights, double
 void PoseResidual::evaluate(const SE3& T, Value& value) const noexcept {
   Eigen::Vector3d position = target_.translation - T.translation;
   if (has_rotation_) {
-    value.log = so3_log(target_.rotation * T.rotation.transpose());
+    set_log(target_.rotation * T.rotation.transpose(), value);
   } else {
     value.log.setZero();
+    value.curvature = 0.0;
   }
   if (isotropic_) {
     value.position_error = has_position_ ? position.norm() : 0.0;
@@ -66,38 +81,21 @@ void PoseResidual::evaluate(const SE3& T, Value& value) const noexcept {
   value.e.tail<3>() = scale_.tail<3>().cwiseProduct(rotation);
 }
 
-void PoseResidual::derivative(const Value& value, Eigen::Matrix3d& linear,
-                              Eigen::Matrix3d& angular) const noexcept {
-  linear.setIdentity();
-  angular.setIdentity();
-  if (has_rotation_) {
-    angular = so3_right_jacobian_inverse(value.log);
-  }
+RowFactors PoseResidual::derivative(const Value& value) const noexcept {
+  // J_r^-1(a) = I + [a]/2 + c [a]^2, and [a]^2 = a a^T - |a|^2 I.
+  const Eigen::Vector3d& a = value.log;
+  const double c = value.curvature;
+  Eigen::Matrix3d angular = c * a * a.transpose();
+  angular.diagonal().array() += 1.0 - c * a.squaredNorm();
+  angular += 0.5 * skew(a);
+  Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
   if (target_axes_) {
     linear = target_.rotation.transpose();
     angular = target_.rotation.transpose() * angular;
   }
-  linear = scale_.head<3>().asDiagonal() * linear;
-  angular = scale_.tail<3>().asDiagonal() * angular;
-}
-
-Vector6 PoseResidual::force(const Value& value) const noexcept {
-  Eigen::Matrix3d linear;
-  Eigen::Matrix3d angular;
-  derivative(value, linear, angular);
-  Vector6 force;
-  force << linear.transpose() * value.e.head<3>(), angular.transpose() * value.e.tail<3>();
-  return force;
-}
-
-void PoseResidual::weigh(const Value& value, Jacobian& J) const noexcept {
-  Eigen::Matrix3d linear;
-  Eigen::Matrix3d angular;
-  derivative(value, linear, angular);
-  for (Eigen::Index j = 0; j < J.cols(); ++j) {
-    J.col(j).head<3>() = (linear * J.col(j).head<3>()).eval();
-    J.col(j).tail<3>() = (angular * J.col(j).tail<3>()).eval();
-  }
+  RowFactors factors;
+  factors.set(scale_.head<3>().asDiagonal() * linear, scale_.tail<3>().asDiagonal() * angular);
+  return factors;
 }
 
 }  // namespace thing_kin

@@ -27,10 +27,9 @@ void forward_kinematics(const Chain& chain, const JointBatch& batch, int frame, 
                         double* out) {
   const Kernels& run = kernels();
   const auto size = static_cast<std::size_t>(numbers_of(format));
-  const auto as = format == PoseFormat::kMatrix ? Kernels::kMatrix : Kernels::kPositionQuaternion;
   in_ranges(batch, [&](std::size_t first, long count) {
     run.poses(chain.skeleton(), chain.skeleton_frame(frame), batch.q + first * dof(chain), count,
-              as, out + first * size);
+              format, out + first * size);
   });
 }
 
@@ -39,8 +38,8 @@ void geometric_jacobian(const Chain& chain, const JointBatch& batch, const Movin
   const Kernels& run = kernels();
   const SkeletonFrame frame = skeleton_frame_at(chain, of);
   in_ranges(batch, [&](std::size_t first, long count) {
-    run.jacobians(chain.skeleton(), frame, batch.q + first * dof(chain), count,
-                  to_kernel(reference), nullptr, J + 6 * dof(chain) * first);
+    run.jacobians(chain.skeleton(), frame, batch.q + first * dof(chain), count, reference, nullptr,
+                  J + 6 * dof(chain) * first);
   });
 }
 
@@ -49,7 +48,7 @@ void forward_kinematics_and_jacobian(const Chain& chain, const JointBatch& batch
   const Kernels& run = kernels();
   in_ranges(batch, [&](std::size_t first, long count) {
     run.jacobians(chain.skeleton(), chain.skeleton_frame(frame), batch.q + first * dof(chain),
-                  count, to_kernel(reference), T + 16 * first, J + 6 * dof(chain) * first);
+                  count, reference, T + 16 * first, J + 6 * dof(chain) * first);
   });
 }
 

@@ -22,7 +22,7 @@ void geometric_jacobian(const Chain& chain, const Posture& posture, const Moving
                         ReferenceFrame reference, Jacobian& J) noexcept {
   J.resize(6, chain.dof());
   const auto compute = [&](const SkeletonFrame& frame) {
-    kernels().jacobian(chain.skeleton(), frame, posture.columns, to_kernel(reference), J.data());
+    kernels().jacobian(chain.skeleton(), frame, posture.columns, reference, J.data());
   };
   if (of.point.isZero(0.0)) {
     compute(chain.skeleton_frame(of.frame));

@@ -220,7 +220,8 @@ void check_path(const UrdfPath& path) {
   }
 }
 
-void check_joints(const ChainDescription& description, const UrdfPath& path) {
+// How many joints of the chain move, if that is a number that a chain may have.
+std::size_t count_joints(const ChainDescription& description, const UrdfPath& path) {
   const auto joints = std::ranges::count_if(description.segments, [](const Segment& segment) {
     return segment.type != JointType::kFixed;
   });
@@ -233,6 +234,7 @@ void check_joints(const ChainDescription& description, const UrdfPath& path) {
                               .append(quoted(path.tip)),
                           "1 to " + std::to_string(kMaxDof));
   }
+  return static_cast<std::size_t>(joints);
 }
 
 }  // namespace
@@ -255,9 +257,7 @@ Chain from_urdf(std::string_view text, const UrdfOptions& options) {
       description.segments.push_back(segment_of(*model->getJoint(step.joint->name), step));
     }
   }
-  check_joints(description, path);
-  description.order.resize(static_cast<std::size_t>(std::ranges::count_if(
-      description.segments, [](const Segment& s) { return s.type != JointType::kFixed; })));
+  description.order.resize(count_joints(description, path));
   std::iota(description.order.begin(), description.order.end(), 0);
   return Chain(std::move(description));
 }

@@ -12,9 +12,8 @@ namespace thing_kin {
 
 namespace {
 
-constexpr std::size_t kLargest = 64U << 20U;  // bytes; the largest robots have one or two million
-constexpr int kDeepest = 100;                 // robots have eight
-constexpr std::size_t kMost = 100000;         // links, joints; robots have some hundred
+constexpr int kDeepest = 100;          // robots have eight
+constexpr std::size_t kMost = 100000;  // links, joints; robots have some hundred
 
 // Thrown inside of Expat's callbacks nothing may pass through C, so the first refusal is kept.
 class Builder {
@@ -118,9 +117,9 @@ class Builder {
 }  // namespace
 
 UrdfDocument read_urdf_document(std::string_view xml, bool is_utf8) {
-  if (xml.size() > kLargest) {
+  if (xml.size() > kLargestUrdf) {
     throw InvalidArgument("source", std::to_string(xml.size()) + " bytes",
-                          "at most " + std::to_string(kLargest));
+                          "at most " + std::to_string(kLargestUrdf));
   }
   // Before an XML declaration nothing may stand; a string literal often begins with a new line.
   const std::string_view blank = xml.substr(0, xml.find_first_not_of(" \t\r\n"));

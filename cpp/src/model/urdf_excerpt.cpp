@@ -1,9 +1,9 @@
 #include "thing_kin/model/urdf_excerpt.hpp"
 
-#include <map>
 #include <set>
 
 #include "thing_kin/core/error.hpp"
+#include "thing_kin/model/xml_text.hpp"
 
 namespace thing_kin {
 
@@ -41,20 +41,8 @@ std::string number_text(const std::string& value, const UrdfJoint& joint,
   return text;
 }
 
-std::string escaped(const std::string& value) {
-  static const std::map<char, std::string> entities{
-      {'&', "&amp;"},   {'<', "&lt;"},   {'>', "&gt;"},   {'"', "&quot;"},
-      {'\'', "&apos;"}, {'\t', "&#x9;"}, {'\n', "&#xA;"}, {'\r', "&#xD;"}};
-  std::string text;
-  for (const char c : value) {
-    const auto entity = entities.find(c);
-    entity == entities.end() ? text.push_back(c) : static_cast<void>(text.append(entity->second));
-  }
-  return text;
-}
-
 std::string attribute(const std::string& name, const std::string& value) {
-  return std::string(" ").append(name).append("=\"").append(escaped(value)).append("\"");
+  return std::string(" ").append(name).append("=\"").append(xml_escaped(value)).append("\"");
 }
 
 std::string link(const std::string& name) {

@@ -7,14 +7,13 @@
 #include <vector>
 
 #include "thing_kin/core/error.hpp"
+#include "thing_kin/model/urdf_document.hpp"
 
 namespace thing_kin {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr std::uintmax_t kLargest = 64U << 20U;  // bytes
 
 std::vector<fs::path> folders_in(const char* variable) {
   std::vector<fs::path> folders;
@@ -94,7 +93,7 @@ std::string read_urdf_file(const fs::path& path) {
     refuse(path, "which is no regular file");
   }
   const std::uintmax_t size = fs::file_size(path, error);
-  if (!error && size > kLargest) {
+  if (!error && size > kLargestUrdf) {
     refuse(path, std::string("which has ").append(std::to_string(size)).append(" bytes"));
   }
   std::ifstream file(path, std::ios::binary);

@@ -9,6 +9,7 @@
 #include "thing_kin/core/error.hpp"
 #include "thing_kin/core/tolerance.hpp"
 #include "thing_kin/lie/so3.hpp"
+#include "thing_kin/model/xml_text.hpp"
 
 namespace thing_kin {
 
@@ -41,32 +42,7 @@ std::string attribute(const std::string& value) {
   if (!is_xml_text(value)) {
     throw InvalidArgument("chain", "a name with characters that XML has not", "names without them");
   }
-  std::string text(1, '"');
-  for (const char c : value) {
-    switch (c) {
-      case '&':
-        text.append("&amp;");
-        break;
-      case '<':
-        text.append("&lt;");
-        break;
-      case '"':
-        text.append("&quot;");
-        break;
-      case '\t':
-        text.append("&#x9;");
-        break;
-      case '\n':
-        text.append("&#xA;");
-        break;
-      case '\r':
-        text.append("&#xD;");
-        break;
-      default:
-        text.push_back(c);
-    }
-  }
-  return text.append("\"");
+  return std::string(1, '"').append(xml_escaped(value)).append("\"");
 }
 
 class Writer {

@@ -629,7 +629,7 @@ class Chain:
         of : str or int, optional
             The frame, from `frames`; default: the last, the tool.
         out : tuple of two float64 arrays in C order, shaped as T and J, optional
-            Where the results go, and what is returned then. They must not share memory.
+            Where the results go, and what is returned then; they share no memory.
         threads : int, optional
             At most so many; default: one, and for large batches all processors. The result is the same.
         
@@ -641,7 +641,8 @@ class Chain:
         Raises
         ------
         ValueError
-            If q has a wrong shape or is not finite, or there is no such frame.
+            If q has a wrong shape or is not finite, there is no such frame, or `out` is no such tuple or
+            its arrays share memory.
         
         Examples
         --------

@@ -4,7 +4,12 @@ Rotations SO(3) and rigid transforms SE(3).
 from __future__ import annotations
 import numpy
 import numpy.typing
-__all__: list[str] = ['quaternion_from_rotation', 'rotation_from_quaternion', 'rotation_from_rpy', 'rpy_from_rotation', 'se3_adjoint', 'se3_exp', 'se3_left_jacobian', 'se3_left_jacobian_inverse', 'se3_log', 'se3_right_jacobian', 'se3_right_jacobian_inverse', 'so3_exp', 'so3_left_jacobian', 'so3_left_jacobian_inverse', 'so3_log', 'so3_right_jacobian', 'so3_right_jacobian_inverse']
+import typing
+__all__: list[str] = ['as_matrix', 'quaternion_from_rotation', 'rotation_from_quaternion', 'rotation_from_rpy', 'rpy_from_rotation', 'se3_adjoint', 'se3_exp', 'se3_left_jacobian', 'se3_left_jacobian_inverse', 'se3_log', 'se3_right_jacobian', 'se3_right_jacobian_inverse', 'so3_exp', 'so3_left_jacobian', 'so3_left_jacobian_inverse', 'so3_log', 'so3_right_jacobian', 'so3_right_jacobian_inverse']
+def as_matrix(argument: typing.Any) -> typing.Any:
+    """
+    Matrix of a pose or rotation as another library has it; anything else as it is.
+    """
 def quaternion_from_rotation(R: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
     """
     Unit quaternion (w, x, y, z) of a rotation matrix, with w >= 0.

@@ -13,14 +13,6 @@ from thing_kin import lie
 Array = NDArray[np.float64]
 
 
-def unwrapped(value: Any) -> Any:
-    """Matrix behind an object, which is known by what it offers, as in all of thing_kin."""
-    for method in ("as_matrix", "toRotationMatrix"):
-        if hasattr(value, method):
-            return getattr(value, method)()
-    return value.A if hasattr(value, "isSE") and hasattr(value, "A") else value
-
-
 def read_pose(value: Any, name: str = "T") -> Array:
     """(4, 4) or (N, 4, 4), a copy; ValueError naming the argument if it is no rigid transform."""
     return _checked_by(lie.se3_adjoint, value, name)
@@ -34,8 +26,8 @@ def read_rotation(value: Any, name: str = "R") -> Array:
 def read_either(value: Any, name: str = "T") -> Array:
     """(4, 4) or (3, 3), or a batch: a pose or a rotation, told apart by shape."""
     try:
-        shape = np.shape(unwrapped(value))
-    except (ValueError, TypeError):  # rows of unequal length
+        shape = np.shape(lie.as_matrix(value))
+    except (ValueError, TypeError, AttributeError):  # rows of unequal length; no norm
         shape = ()
     if shape[-2:] == (3, 3):
         return read_rotation(value, name)
@@ -70,4 +62,4 @@ def _checked_by(check: Callable[[Any], object], value: Any, name: str) -> Array:
         check(value)
     except ValueError as error:
         raise ValueError(name + ":" + str(error).partition(":")[2]) from None
-    return np.array(unwrapped(value), dtype=np.float64)
+    return np.array(lie.as_matrix(value), dtype=np.float64)

@@ -11,7 +11,7 @@ import numpy as np
 from thing_kin.interop.arrays import Array, read_vectors
 from thing_kin.interop.inertia import checked
 from thing_kin.interop.peers import peer
-from thing_kin.interop.structure import inverse, structure
+from thing_kin.interop.structure import structure
 
 if TYPE_CHECKING:
     import pinocchio
@@ -218,13 +218,14 @@ def _build(pin: Any, robot: Chain, bodies: Mapping[str, Any]) -> PinocchioModel:
     found = structure(robot)
     model = pin.Model()
     model.name = robot.name
-    to_joint = [np.eye(4)]  # from the world to each joint, and first to the universe, at q = 0
+    to_joint = [pin.SE3.Identity()]  # from the world, at q = 0; the first is the universe
     for i, joint in enumerate(found.joints):
-        _add_joint(pin, model, robot, joint.place, pin.SE3(to_joint[i] @ joint.pose))
-        to_joint.append(inverse(joint.pose))
+        pose = pin.SE3(joint.pose)
+        _add_joint(pin, model, robot, joint.place, to_joint[i] * pose)
+        to_joint.append(pose.inverse())
     frames = {}
     for name, pose, at in zip(robot.frames, found.frames, found.joints_before, strict=True):
-        placement = pin.SE3(to_joint[at] @ pose)
+        placement = to_joint[at] * pin.SE3(pose)
         frame = pin.Frame(name, at, placement, pin.FrameType.OP_FRAME)
         frames[name] = model.addFrame(frame)
         if name in bodies:

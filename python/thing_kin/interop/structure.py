@@ -74,11 +74,3 @@ def rotation_from_z_to(axis: Array) -> Array:
     sine = np.hypot(x, y)  # z cross axis = (-y, x, 0)
     normal = np.array([-y, x, 0.0]) / sine if sine > 0.0 else np.array([1.0, 0.0, 0.0])
     return lie.so3_exp(np.arctan2(sine, z) * normal)
-
-
-def inverse(T: Array) -> Array:
-    """Of a rigid transform, without a division."""
-    out = np.eye(4)
-    out[:3, :3] = T[:3, :3].T
-    out[:3, 3] = -T[:3, :3].T @ T[:3, 3]
-    return out

@@ -8,11 +8,11 @@
 
 namespace thing_kin {
 
-/// The processors this process may use.
+/// The processors that the calling thread may use, which may be fewer than there are.
 int available_processors() noexcept;
 
-/// How many threads a batch gets: `wanted`, or if that is 0 as many as there are processors, but no
-/// more than give each at least `grain` items.
+/// How many threads a batch gets: `wanted`, or if that is 0 as many as there are processors to use,
+/// but no more than give each at least `grain` items.
 int thread_count(int wanted, std::size_t items, std::size_t grain) noexcept;
 
 /// Calls work(first, last) for consecutive ranges that make up [0, items), one a thread. Ranges are

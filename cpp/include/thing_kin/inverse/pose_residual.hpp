@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "thing_kin/kinematics/jacobian.hpp"
+#include "thing_kin/kinematics/damped_inverse.hpp"
 
 namespace thing_kin {
 
@@ -24,6 +24,7 @@ class PoseResidual {
   struct Value {
     Vector6 e;              ///< weighted
     Eigen::Vector3d log;    ///< log(R_goal R^T), axes of the world
+    double curvature;       ///< (1 - (a/2) cot(a/2))/a^2 of the angle a = |log|
     double position_error;  ///< m, of the coordinates that count
     double rotation_error;  ///< rad, of the coordinates that count
     double cost() const { return 0.5 * e.squaredNorm(); }
@@ -35,13 +36,9 @@ class PoseResidual {
   /// The residual e of T.
   void evaluate(const SE3& T, Value& value) const noexcept;
 
-  /// Turns the geometric Jacobian (world_aligned) into that of -e: exact, with the derivative of
-  /// the logarithm, log(exp(e) exp(-w)) = e - J_r^-1(e) w to first order.
-  void weigh(const Value& value, Jacobian& J) const noexcept;
-
-  /// The cost's derivative by the twist of the pose, less its sign: gradient = -J^T force with the
-  /// geometric Jacobian.
-  Vector6 force(const Value& value) const noexcept;
+  /// M J is the Jacobian of -e, exactly, where J is the geometric one (world_aligned). It has the
+  /// derivative of the logarithm: log(exp(e) exp(-w)) = e - J_r^-1(e) w to first order.
+  RowFactors derivative(const Value& value) const noexcept;
 
   /// The cost, near enough to choose where to begin: `way` to the target, and 3 - tr(R_goal R^T),
   /// which is the square of a small angle. No coordinate counts less than the others of its part.
@@ -61,10 +58,6 @@ class PoseResidual {
   double rotation_scale() const { return scale_[3]; }
 
  private:
-  // e falls by [linear v; angular w] for a small motion of the pose by the twist [v; w].
-  void derivative(const Value& value, Eigen::Matrix3d& linear,
-                  Eigen::Matrix3d& angular) const noexcept;
-
   SE3 target_;
   Vector6 scale_;
   Vector6 counts_;  // 1 or 0

@@ -1,17 +1,11 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
 #include "thing_kin/kinematics/jacobian.hpp"
+#include "thing_kin/kinematics/pose_format.hpp"
 
 namespace thing_kin {
-
-/// How a pose is written in a batch.
-enum class PoseFormat : std::uint8_t {
-  kMatrix,              ///< (4, 4), row-major
-  kPositionQuaternion,  ///< [x, y, z, w, x, y, z] with w >= 0
-};
 
 inline int numbers_of(PoseFormat format) { return format == PoseFormat::kMatrix ? 16 : 7; }
 

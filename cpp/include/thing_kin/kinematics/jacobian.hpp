@@ -1,20 +1,14 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <utility>
 
 #include "thing_kin/kinematics/posture.hpp"
+#include "thing_kin/kinematics/reference_frame.hpp"
 
 namespace thing_kin {
 
-/// What a Jacobian's rows mean, [linear; angular].
-enum class ReferenceFrame : std::uint8_t {
-  kWorldAligned,  ///< velocity of the point, axes of the root
-  kBody,          ///< velocity of the point, axes of the frame
-  kWorld,  ///< spatial twist: velocity of the point now at the root's origin, axes of the root
-};
-
+/// 'world_aligned', 'body' or 'world'; throws InvalidArgument for anything else.
 ReferenceFrame reference_frame_from_string(const std::string& name);
 
 /// What moves: a point fixed to a frame. A frame's index alone means its origin.

@@ -7,22 +7,11 @@
 #include <vector>
 
 #include "thing_kin/core/types.hpp"
+#include "thing_kin/model/chain_description.hpp"
 #include "thing_kin/model/dh.hpp"
-#include "thing_kin/model/segment.hpp"
 #include "thing_kin/model/skeleton.hpp"
 
 namespace thing_kin {
-
-/// What a Chain is made from; a plain value, to be built up and then frozen.
-struct ChainDescription {
-  std::string name;
-  std::string root = "world";  ///< name of the frame that the first segment stands in
-  std::vector<Segment> segments;
-  std::vector<int> order;      ///< order[i]: index in q of the i-th joint from the root
-  bool has_omni_base = false;  ///< the first three joints are x, y, theta of a planar base
-
-  bool operator==(const ChainDescription&) const = default;
-};
 
 /// An immutable serial chain: what every algorithm reads, and all threads share.
 ///

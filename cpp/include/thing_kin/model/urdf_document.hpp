@@ -1,11 +1,15 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace thing_kin {
+
+/// Of a text or a file, in bytes; the largest robots have one or two million.
+inline constexpr std::size_t kLargestUrdf = 64U << 20U;
 
 /// A <joint> as written: its own attributes and those of the elements in it that matter here.
 struct UrdfJoint {
@@ -28,7 +32,7 @@ struct UrdfDocument {
 /// Parses XML with Expat, which does not recurse, and keeps nothing of meshes, inertias and the
 /// like. `is_utf8`: whatever the XML declaration says. Throws InvalidArgument for what is not
 /// well-formed, is no <robot>, is not expanded xacro, has a document type (and so entities), is
-/// larger than 64 MB or nested deeper than 100.
+/// larger than kLargestUrdf or nested deeper than 100.
 UrdfDocument read_urdf_document(std::string_view xml, bool is_utf8);
 
 }  // namespace thing_kin

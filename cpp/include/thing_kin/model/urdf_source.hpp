@@ -14,8 +14,8 @@ using PackageFolders = std::map<std::string, std::filesystem::path>;
 /// for file://. Throws InvalidArgument if the package is in none of them.
 std::filesystem::path resolve_urdf_path(const std::string& path, const PackageFolders& packages);
 
-/// The text of a regular file. Throws InvalidArgument for what can't be read, is larger than 64 MB
-/// or is called *.xacro.
+/// The text of a regular file. Throws InvalidArgument for what can't be read, is larger than
+/// kLargestUrdf (model/urdf_document.hpp) or is called *.xacro.
 std::string read_urdf_file(const std::filesystem::path& path);
 
 }  // namespace thing_kin

@@ -5,19 +5,6 @@
 
 namespace thing_kin {
 
-/// The reference frame by the kernels' own name.
-inline Kernels::Reference to_kernel(ReferenceFrame reference) noexcept {
-  switch (reference) {
-    case ReferenceFrame::kBody:
-      return Kernels::kBody;
-    case ReferenceFrame::kWorld:
-      return Kernels::kWorld;
-    case ReferenceFrame::kWorldAligned:
-      break;
-  }
-  return Kernels::kWorldAligned;
-}
-
 /// A point as a frame of its own, with the axes of the one it is fixed to.
 inline SkeletonFrame skeleton_frame_at(const Chain& chain, const MovingPoint& of) noexcept {
   SkeletonFrame frame = chain.skeleton_frame(of.frame);

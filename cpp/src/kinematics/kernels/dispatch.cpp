@@ -4,7 +4,7 @@
 
 namespace thing_kin {
 
-static_assert(kHalfTurnTolerance == 0x1p-49);
+static_assert(Kernels::kHalfTurnTolerance == kHalfTurnTolerance);
 
 namespace baseline {
 extern const Kernels kKernels;

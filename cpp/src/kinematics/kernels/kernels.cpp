@@ -3,14 +3,13 @@
 
 #include "kernels.hpp"
 
+#include "damped.hpp"
 #include "quaternion.hpp"
 #include "walk.hpp"
 
 namespace thing_kin::THING_KIN_LEVEL {
 
 namespace {
-
-constexpr double kHalfTurnTolerance = 0x1p-49;  // as core/tolerance.hpp has it
 
 void place(const Skeleton& skeleton, const double* q, int joints, double* columns) noexcept {
   const Motion motion(skeleton, q, joints);
@@ -54,15 +53,15 @@ Columns in_axes(const Frame<Columns>& frame, const Columns& v) {
 }
 
 void jacobian(const Skeleton& skeleton, const SkeletonFrame& frame, const double* placed,
-              Kernels::Reference reference, double* J) noexcept {
+              ReferenceFrame reference, double* J) noexcept {
   Frame<Column> end{};
   if (frame.joints > 0) {
     read(placed + 16 * (frame.joints - 1), end);
   }
   end = end_of(frame, end);
-  const Column point = reference == Kernels::kWorld ? Column{} : end.origin;
+  const Column point = reference == ReferenceFrame::kWorld ? Column{} : end.origin;
   Column rows[3] = {};
-  if (reference == Kernels::kBody) {
+  if (reference == ReferenceFrame::kBody) {
     for (int i = 0; i < 3; ++i) {
       const double row[] = {end.x[i], end.y[i], end.z[i], 0.0};
       read(row, rows[i]);
@@ -75,14 +74,14 @@ void jacobian(const Skeleton& skeleton, const SkeletonFrame& frame, const double
     if (i < frame.joints) {
       Column z;
       read(placed + 16 * i + 8, z);
-      z = reference == Kernels::kBody ? in_axes(rows, z) : z;
+      z = reference == ReferenceFrame::kBody ? in_axes(rows, z) : z;
       if (step.prismatic) {
         v = z;
       } else {
         Column origin;
         read(placed + 16 * i + 12, origin);
         Column arm = point - origin;
-        arm = reference == Kernels::kBody ? in_axes(rows, arm) : arm;
+        arm = reference == ReferenceFrame::kBody ? in_axes(rows, arm) : arm;
         v = cross(z, arm);
         w = z;
       }
@@ -108,7 +107,7 @@ int put_matrix(const Frame<Columns>& T, Lanes* to) {
 }
 
 int put_position_quaternion(const Frame<Columns>& T, Lanes* to) {
-  const Quaternion q = quaternion_of(T, kHalfTurnTolerance);
+  const Quaternion q = quaternion_of(T, Kernels::kHalfTurnTolerance);
   const Lanes row[] = {T.origin.x, T.origin.y, T.origin.z, q.w, q.x, q.y, q.z};
   for (int i = 0; i < 7; ++i) {
     to[i] = row[i];
@@ -117,35 +116,35 @@ int put_position_quaternion(const Frame<Columns>& T, Lanes* to) {
 }
 
 void poses(const Skeleton& skeleton, const SkeletonFrame& frame, const double* q, long count,
-           Kernels::Format format, double* out) noexcept {
+           PoseFormat format, double* out) noexcept {
   for_lanes(skeleton, q, count, frame.joints, [&](long first, int rows, const Motions& motions) {
     const auto placed =
         walk<Columns>(skeleton, frame.joints, motions, [](int, const Frame<Columns>&) {});
     const Frame<Columns> T = end_of(frame, placed);
     Lanes components[16];
-    const int size = format == Kernels::kMatrix ? put_matrix(T, components)
-                                                : put_position_quaternion(T, components);
+    const int size = format == PoseFormat::kMatrix ? put_matrix(T, components)
+                                                   : put_position_quaternion(T, components);
     store_rows(components, size, rows, out + first * size);
   });
 }
 
 // (6, joints) in row order, with zeros for the joints beyond the frame.
 void put_jacobian(const Skeleton& skeleton, int moving, const Columns* axis, const Columns* origin,
-                  const Frame<Columns>& end, Kernels::Reference reference, Lanes* to) {
+                  const Frame<Columns>& end, ReferenceFrame reference, Lanes* to) {
   const Lanes zero = splat(0.0);
   const Columns none{zero, zero, zero};
-  const Columns point = reference == Kernels::kWorld ? none : end.origin;
+  const Columns point = reference == ReferenceFrame::kWorld ? none : end.origin;
   const int n = skeleton.joints;
   for (int i = 0; i < n; ++i) {
     const Skeleton::Step& step = skeleton.step[i];
     Columns v = none;
     Columns w = none;
     if (i < moving && step.prismatic) {
-      v = reference == Kernels::kBody ? in_axes(end, axis[i]) : axis[i];
+      v = reference == ReferenceFrame::kBody ? in_axes(end, axis[i]) : axis[i];
     } else if (i < moving) {
       v = cross(axis[i], point - origin[i]);
-      v = reference == Kernels::kBody ? in_axes(end, v) : v;
-      w = reference == Kernels::kBody ? in_axes(end, axis[i]) : axis[i];
+      v = reference == ReferenceFrame::kBody ? in_axes(end, v) : v;
+      w = reference == ReferenceFrame::kBody ? in_axes(end, axis[i]) : axis[i];
     }
     const Lanes column[] = {v.x, v.y, v.z, w.x, w.y, w.z};
     for (int row = 0; row < 6; ++row) {
@@ -155,7 +154,7 @@ void put_jacobian(const Skeleton& skeleton, int moving, const Columns* axis, con
 }
 
 void jacobians(const Skeleton& skeleton, const SkeletonFrame& frame, const double* q, long count,
-               Kernels::Reference reference, double* T, double* J) noexcept {
+               ReferenceFrame reference, double* T, double* J) noexcept {
   const int n = skeleton.joints;
   for_lanes(skeleton, q, count, frame.joints, [&](long first, int rows, const Motions& motions) {
     Columns axis[kMaxDof];
@@ -175,9 +174,33 @@ void jacobians(const Skeleton& skeleton, const SkeletonFrame& frame, const doubl
   });
 }
 
+void damped_inverse(const double* J, const double* mobility, int n, const double* factors,
+                    double lambda, const double* e, double* dq) noexcept {
+  Matrix3 linear;
+  Matrix3 angular;
+  read(factors, linear);
+  read(factors + 12, angular);
+  double A[6][6];
+  normal_matrix(J, mobility, n, linear, angular, lambda, A);
+  double y[6] = {e[0], e[1], e[2], e[3], e[4], e[5]};
+  solve_symmetric(A, lambda, y);
+  double f[6];  // what y is before the factors
+  for (int k = 0; k < 3; ++k) {
+    const double* L = factors + 4 * k;
+    const double* R = L + 12;
+    f[k] = L[0] * y[0] + L[1] * y[1] + L[2] * y[2];
+    f[3 + k] = R[0] * y[3] + R[1] * y[4] + R[2] * y[5];
+  }
+  for (int j = 0; j < n; ++j) {
+    const double* c = J + 6 * j;
+    dq[j] = mobility[j] * ((c[0] * f[0] + c[1] * f[1] + c[2] * f[2]) +
+                           (c[3] * f[3] + c[4] * f[4] + c[5] * f[5]));
+  }
+}
+
 }  // namespace
 
 extern const Kernels kKernels;
-const Kernels kKernels{place, pose, jacobian, poses, jacobians};
+const Kernels kKernels{place, pose, jacobian, poses, jacobians, damped_inverse};
 
 }  // namespace thing_kin::THING_KIN_LEVEL

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "thing_kin/kinematics/pose_format.hpp"
+#include "thing_kin/kinematics/reference_frame.hpp"
 #include "thing_kin/model/skeleton.hpp"
 
 namespace thing_kin {
@@ -7,8 +9,8 @@ namespace thing_kin {
 /// The loops of forward kinematics and Jacobian, compiled for one instruction set. Numbers only:
 /// see lanes.hpp. Columns are x, y, z, origin of a frame, each padded to four numbers.
 struct Kernels {
-  enum Reference : unsigned char { kWorldAligned, kBody, kWorld };
-  enum Format : unsigned char { kMatrix, kPositionQuaternion };
+  /// As core/tolerance.hpp has it, which dispatch.cpp checks: that header has functions.
+  static constexpr double kHalfTurnTolerance = 0x1p-49;
 
   /// Frames of the first `joints` joints after their motion: 16 numbers each.
   void (*place)(const Skeleton& skeleton, const double* q, int joints, double* columns) noexcept;
@@ -19,16 +21,21 @@ struct Kernels {
 
   /// Jacobian of a frame of placed joints, (6, joints) in column order.
   void (*jacobian)(const Skeleton& skeleton, const SkeletonFrame& frame, const double* placed,
-                   Reference reference, double* J) noexcept;
+                   ReferenceFrame reference, double* J) noexcept;
 
   /// Poses for `count` rows of q: 16 numbers each, row-major, or 7.
   void (*poses)(const Skeleton& skeleton, const SkeletonFrame& frame, const double* q, long count,
-                Format format, double* out) noexcept;
+                PoseFormat format, double* out) noexcept;
 
   /// Jacobians for `count` rows of q, (6, joints) each in row order; row-major poses too unless T
   /// is null.
   void (*jacobians)(const Skeleton& skeleton, const SkeletonFrame& frame, const double* q,
-                    long count, Reference reference, double* T, double* J) noexcept;
+                    long count, ReferenceFrame reference, double* T, double* J) noexcept;
+
+  /// dq of damped_inverse.hpp; J (6, n) and `factors`, two (3, 3), in column order, those of the
+  /// factors padded to four.
+  void (*damped_inverse)(const double* J, const double* mobility, int n, const double* factors,
+                         double lambda, const double* e, double* dq) noexcept;
 };
 
 /// Those of the level in use (core/simd.hpp).
