@@ -1,4 +1,4 @@
-"""Markdown tables of inverse_race.py's figures, in the form of markdown.py."""
+"""Markdown tables of inverse_race.py's and step_race.py's figures, in the form of markdown.py."""
 
 from typing import Any
 
@@ -6,6 +6,7 @@ from figures import Figures
 from markdown import NONE, table, time
 
 FILE = "inverse_race.json"
+STEPS = "step_race.json"
 Result = dict[str, Any]
 
 
@@ -76,3 +77,18 @@ def inverse_setup(figures: Figures) -> str:
         versions = ", ".join(f"{name} {version}" for name, version in packages.items())
         rows.append([about["title"], versions or NONE, about["note"]])
     return table(["", "versions", "set-up"], rows)
+
+
+def inverse_steps(figures: Figures) -> str:
+    """One differential step within limits."""
+    rows = [
+        [
+            f"{result['title']}: {result['note']}",
+            " / ".join(time(result[f"cpu_{x}"]) for x in ("median", "mean", "p99")),
+            share(result["kept"]),
+            f"{result['left']:.2f} %, {result['left_mean']:.1f} %",
+        ]
+        for result in figures.content(STEPS)["results"]
+    ]
+    head = ["", "median / mean / p99", "limits kept", "hand's error that is left: median, mean"]
+    return table(head, rows)

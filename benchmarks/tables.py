@@ -25,6 +25,7 @@ TABLES = {  # the file without which there is none
     "inverse": inverse_tables.FILE,
     "inverse_claims": inverse_tables.FILE,
     "inverse_setup": inverse_tables.FILE,
+    "inverse_steps": inverse_tables.STEPS,
 }
 
 

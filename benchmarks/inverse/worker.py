@@ -45,7 +45,8 @@ class Worker:
             try:
                 found[package] = version(package)
             except PackageNotFoundError:
-                found[package] = "?"
+                module = sys.modules.get(package)  # a build that is not installed
+                found[package] = str(getattr(module, "__version__", "?"))
         return found
 
     def enter(self, arm: dict[str, Any], targets: str) -> None:

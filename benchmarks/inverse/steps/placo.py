@@ -29,12 +29,12 @@ class PlacoStep(Step):
         self.solver.enable_joint_limits(True)
         self.solver.enable_velocity_limits(True)
         self.hand = self.solver.add_frame_task(HAND_FRAME, np.eye(4))
-        self.hand.configure("hand", "soft", HAND, HAND)
+        self.hand.configure("hand", "soft", HAND**2, HAND**2)  # the others square them
         self.base = self.solver.add_frame_task(BASE_FRAME, np.eye(4))
-        self.base.configure("base", "soft", BASE, BASE)
+        self.base.configure("base", "soft", BASE**2, BASE**2)
         posture = self.solver.add_joints_task()
         posture.set_joints(dict(zip(arm.joints, middle(arm), strict=True)))
-        posture.configure("posture", "soft", POSTURE)
+        posture.configure("posture", "soft", POSTURE**2)
         self.places = [self.robot.get_joint_offset(name) for name in arm.joints]
         self.speeds = [self.robot.get_joint_v_offset(name) for name in arm.joints]
 
