@@ -30,7 +30,7 @@ def make(directory: Path, group: str) -> None:
     if not (directory / "bin" / "python").exists():
         venv.create(directory, with_pip=True, system_site_packages=True)
     for package in packages(group):
-        command = [directory / "bin" / "python", "-m", "pip", "install", "--quiet", package]
+        command = [directory / "bin" / "python", "-m", "pip", "install", "-qq", package]
         done = subprocess.run(command, check=False).returncode == 0
         print(f"{directory}: {package} {'is there' if done else 'could not be installed'}")
 

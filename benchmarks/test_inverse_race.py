@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 import inverse_tables
+import step_race
 from figures import Figures
-from inverse import gather
+from inverse import Solver, gather
 from inverse.contest import AbsentError, Contender, race
 from inverse.field import ROBOTS, Course, course
 from inverse.results import figures
@@ -52,17 +53,21 @@ def test_a_judge_knows_no_limit_of_a_continuous_joint(tmp_path: Path) -> None:
     assert laid.judge.is_right(q, laid.judge.fk(q).homogeneous)
 
 
+def contender_of(solver: type[Solver]) -> Contender:
+    python = PEERS / solver.environment / "bin" / "python"
+    own = solver.environment and python.exists()
+    try:
+        return Contender(solver, str(python) if own else sys.executable)
+    except AbsentError:
+        pytest.skip("not installed")
+
+
 @pytest.mark.parametrize("name", gather())
 def test_a_solver_answers_rightly_or_says_that_it_failed(name: str, small_course: Course) -> None:
     solver = gather()[name]
     if not solver.can(small_course.arm):
         pytest.skip("not made for this arm")
-    python = PEERS / solver.environment / "bin" / "python"
-    own = solver.environment and python.exists()
-    try:
-        contender = Contender(solver, str(python) if own else sys.executable)
-    except AbsentError:
-        pytest.skip("not installed")
+    contender = contender_of(solver)
     try:
         (answers,) = race(small_course, [contender], 20.0).values()
     finally:
@@ -72,6 +77,19 @@ def test_a_solver_answers_rightly_or_says_that_it_failed(name: str, small_course
     assert result["wrong_claims"] == result["unclaimed"] == 0.0
     assert result["success"] > 60.0  # TRAC-IK's milliseconds depend on the machine's load
     assert 0.0 < result["cpu_median"] <= result["cpu_p99"]
+
+
+@pytest.mark.parametrize("name", gather("steps"))
+def test_a_step_keeps_the_limits_and_brings_the_hand_nearer(name: str, tmp_path: Path) -> None:
+    laid, starts = step_race.laid_out(40, tmp_path)
+    contender = contender_of(gather("steps")[name])
+    try:
+        (answers,) = race(laid, [contender], 20.0).values()
+    finally:
+        contender.close()
+    result = step_race.figures(laid, starts, answers)
+    assert result["kept"] == 100.0
+    assert result["left"] < 20.0  # per cent, of a tenth of a radian or a meter a joint
 
 
 def test_figures_become_tables_and_a_plot(tmp_path: Path) -> None:
@@ -93,5 +111,9 @@ def test_figures_become_tables_and_a_plot(tmp_path: Path) -> None:
     claims = inverse_tables.inverse_claims(made).splitlines()[2]
     assert claims == "| RTB LM | 200 | 99.50 % | 100 % | 0.50 % | 0 % | 1 ms | 1.00 |"
     assert inverse_tables.inverse_setup(made).splitlines()[2] == "| RTB LM | rtb 1.5 | as it is |"
+    steps = {**about, **times, "note": "one", "kept": 100.0, "left": 5.126, "left_mean": 6.0}
+    (tmp_path / inverse_tables.STEPS).write_text(json.dumps({"results": [steps]}))
+    row = inverse_tables.inverse_steps(made).splitlines()[2]
+    assert row == "| RTB LM: one | 1 ms / 1 ms / 1 ms | 100 % | 5.13 %, 6.0 % |"
     draw(content, tmp_path / "plot.png")
     assert (tmp_path / "plot.png").stat().st_size > 10_000

@@ -77,8 +77,11 @@ class Solver:
         """The answer in the solver's own types."""
         raise NotImplementedError
 
-    def answer(self, result: Any) -> tuple[Any, bool]:
-        """Joint values, or None; and whether the solver says that they are a solution."""
+    def answer(self, result: Any, q0: Any) -> tuple[Any, bool]:
+        """Joint values, or None; and whether the solver says that they are a solution.
+
+        q0: the seed.
+        """
         q, success = result
         return q, bool(success)
 

@@ -10,6 +10,7 @@ import os
 import platform
 import sys
 import time
+from collections.abc import Iterable
 from importlib.metadata import PackageNotFoundError, version
 from multiprocessing.connection import Connection
 from typing import Any
@@ -17,6 +18,11 @@ from typing import Any
 import numpy as np
 
 from inverse import Arm, Solver, gather
+
+Answer = tuple[list[float] | None, bool, float, float]  # q, claim; CPU (all threads), wall, s
+
+MOST_AT_ONCE = 256
+BATCH_SECONDS = 0.05
 
 
 def empty_call() -> int:
@@ -54,29 +60,46 @@ class Worker:
         self.solver: Solver = self.solver_class(Arm(**arm))
         with np.load(targets) as data:
             self.targets, self.seeds = data["targets"], data["seeds"]
-        for index in range(-3, 0):
-            self.one(index)
+        self.size = 1
+        self.solve(range(-3, 0))
 
-    def one(self, index: int) -> tuple[list[float] | None, bool, float, float]:
-        """Answer, claim, CPU and wall seconds. CPU is the process's, so of all its threads."""
+    def solve(self, indices: Iterable[int]) -> list[Answer]:
+        """Targets one right after the other, prepared before and read after all of them."""
+        inputs = [self.prepared(index) for index in indices]
+        results, times = [], []
+        for x in inputs:
+            cpu = time.process_time_ns()
+            wall = time.perf_counter_ns()
+            result = self.solver.solve(x)
+            wall = time.perf_counter_ns() - wall
+            cpu = time.process_time_ns() - cpu - self.clock
+            results.append(result)
+            times.append((max(cpu, 0) * 1e-9, wall * 1e-9))
+        return [
+            (*self.read(result, index), *taken)
+            for index, result, taken in zip(indices, results, times, strict=True)
+        ]
+
+    def prepared(self, index: int) -> Any:
         rng = np.random.default_rng([2, index % len(self.targets)])
-        x = self.solver.prepare(self.targets[index], self.seeds[index], rng)
-        cpu = time.process_time_ns()
-        wall = time.perf_counter_ns()
-        result = self.solver.solve(x)
-        wall = time.perf_counter_ns() - wall
-        cpu = max(time.process_time_ns() - cpu - self.clock, 0)
-        q, claim = self.solver.answer(result)
-        return (None if q is None else np.asarray(q).tolist()), claim, cpu * 1e-9, wall * 1e-9
+        return self.solver.prepare(self.targets[index], self.seeds[index], rng)
 
-    def run(self, first: int, last: int, seconds: float) -> list[Any]:
+    def read(self, result: Any, index: int) -> tuple[list[float] | None, bool]:
+        q, claim = self.solver.answer(result, self.seeds[index])
+        return (None if q is None else np.asarray(q).tolist()), claim
+
+    def run(self, first: int, last: int, seconds: float) -> list[Answer]:
         """Answers to the targets from `first` on, until `last` or about as long as said."""
         gc.collect()
         gc.disable()
-        results: list[Any] = []
+        results: list[Answer] = []
         end = time.perf_counter() + seconds
-        while first + len(results) < last and time.perf_counter() < end:
-            results.append(self.one(first + len(results)))
+        while first < last and time.perf_counter() < end:
+            batch = self.solve(range(first, min(first + self.size, last)))
+            results += batch
+            first += len(batch)
+            mean = sum(wall for *_, wall in batch) / len(batch)
+            self.size = max(1, min(MOST_AT_ONCE, int(BATCH_SECONDS / mean)))
         gc.enable()
         return results
 

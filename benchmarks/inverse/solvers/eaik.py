@@ -36,16 +36,15 @@ class Eaik(Solver):
         self.offset = np.linalg.inv(tool) @ frame
 
     def prepare(self, T: Any, q0: Any, rng: np.random.Generator) -> Any:
-        self.seed = q0
         return T @ self.offset
 
     def solve(self, x: Any) -> Any:
         return self.robot.IK(x)
 
-    def answer(self, result: Any) -> tuple[Any, bool]:
+    def answer(self, result: Any, q0: Any) -> tuple[Any, bool]:
         """Its angles are within a turn: two turns either way of UR arms add nothing."""
         exact = [q for q, ls in zip(np.array(result.Q), result.is_LS, strict=True) if not ls]
         able = [q for q in exact if np.all((q >= self.arm.lower) & (q <= self.arm.upper))]
         if not able:
             return (exact[0] if exact else None), False
-        return min(able, key=lambda q: float(np.abs(q - self.seed).max())), True
+        return min(able, key=lambda q: float(np.abs(q - q0).max())), True

@@ -25,7 +25,7 @@ class Ours(Solver):
         self.tk = importlib.import_module("thing_kin")
         self.chain = self.tk.Chain.from_urdf(Path(arm.urdf).read_text(), base=arm.base, tip=arm.tip)
 
-    def answer(self, result: Any) -> tuple[Any, bool]:
+    def answer(self, result: Any, q0: Any) -> tuple[Any, bool]:
         return result.q, bool(result.success)
 
 
@@ -68,7 +68,7 @@ class ClosedForm(Ours):
         T, q0, _ = x
         return self.tk.ik_all(self.chain, T, seed=q0)
 
-    def answer(self, result: Any) -> tuple[Any, bool]:
+    def answer(self, result: Any, q0: Any) -> tuple[Any, bool]:
         exact = result.q[result.exact]
         return (exact[0], True) if len(exact) else (None, False)
 

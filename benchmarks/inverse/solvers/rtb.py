@@ -37,5 +37,5 @@ class RoboticsToolbox(Solver):
         T, q0, _ = x
         return self.ets.ik_LM(T, q0=q0, tol=0.5 * POSITION_TOLERANCE**2)
 
-    def answer(self, result: Any) -> tuple[Any, bool]:
+    def answer(self, result: Any, q0: Any) -> tuple[Any, bool]:
         return np.asarray(result.q), bool(result.success)

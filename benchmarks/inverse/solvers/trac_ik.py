@@ -52,7 +52,7 @@ class TracIk(Solver):
     def solve(self, x: Any) -> Any:
         return self.tracik.ik(self.solver, *x)
 
-    def answer(self, result: Any) -> tuple[Any, bool]:
+    def answer(self, result: Any, q0: Any) -> tuple[Any, bool]:
         """The first number is KDL's status."""
         return (result[1:], True) if result[0] >= 0 else (None, False)
 

@@ -38,13 +38,12 @@ class Step(Solver):
         return arm.joints[BASE_JOINTS] == ["x", "y", "theta"]
 
     def prepare(self, T: Any, q0: Any, rng: np.random.Generator) -> Any:
-        self.start = q0
         return self.ready(q0, T, q0[BASE_JOINTS] + rng.uniform(-BASE_REACH, BASE_REACH, 3))
 
     def ready(self, q: Any, hand: Any, base: Any) -> Any:
         """The three in the solver's own types."""
         raise NotImplementedError
 
-    def answer(self, result: Any) -> tuple[Any, bool]:
+    def answer(self, result: Any, q0: Any) -> tuple[Any, bool]:
         """From the step's dq."""
-        return self.start + result, True
+        return q0 + result, True

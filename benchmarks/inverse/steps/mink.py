@@ -48,5 +48,5 @@ class MinkStep(Step):
         limits = self.limits
         return self.mink.solve_ik(self.state, tasks, DT, "daqp", limits=limits, safety_break=False)
 
-    def answer(self, result: Any) -> tuple[Any, bool]:
-        return self.start + DT * result, True
+    def answer(self, result: Any, q0: Any) -> tuple[Any, bool]:
+        return q0 + DT * result, True

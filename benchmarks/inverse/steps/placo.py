@@ -49,5 +49,5 @@ class PlacoStep(Step):
         self.robot.update_kinematics()
         return self.solver.solve(False)
 
-    def answer(self, result: Any) -> tuple[Any, bool]:
-        return self.start + result[self.speeds], True
+    def answer(self, result: Any, q0: Any) -> tuple[Any, bool]:
+        return q0 + result[self.speeds], True
