@@ -10,6 +10,7 @@ import argparse
 import re
 from pathlib import Path
 
+import inverse_tables
 import markdown
 from figures import Figures
 
@@ -21,12 +22,16 @@ TABLES = {  # the file without which there is none
     "cpp": "bench_thing.json",
     "memory": "scaling.json",
     "won_by_peers": "bench.json",
+    "inverse": inverse_tables.FILE,
+    "inverse_claims": inverse_tables.FILE,
+    "inverse_setup": inverse_tables.FILE,
+    "inverse_steps": inverse_tables.STEPS,
 }
 
 
 def made(figures: Figures) -> dict[str, str]:
     return {
-        name: getattr(markdown, name)(figures)
+        name: getattr(inverse_tables if name.startswith("inverse") else markdown, name)(figures)
         for name, file in TABLES.items()
         if figures.content(file)
     }

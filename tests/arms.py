@@ -64,8 +64,8 @@ def iiwa14() -> tk.Chain:
 def gen3() -> tk.Chain:
     """Kinova Gen3 with seven joints, of which 1, 3, 5 and 7 turn without end.
 
-    Rows as in the user guide, lengths and limits of kortex_description, right angles exact. The z axis
-    of the first joint points downwards.
+    Rows as in the user guide, lengths and limits of kortex_description, right angles exact. The z
+    axis of the first joint points downwards.
     """
     d = [-0.28481, -0.01175, -0.42076, -0.01275, -0.31436, -0.0003501, -0.167455]
     limit = [None, 2.41, None, 2.66, None, 2.23, None]

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 import thing_kin as tk
-from thing_kin import interop, lie
+from thing_kin import interop, kdl, lie
 from thing_kin.kdl import KdlChain
 
 ROBOT = tk.robots.thing()
@@ -137,6 +137,8 @@ MODEL = [
     Argument("difference", "q_to", Q, lambda v: FREE.difference(Q[::-1], v), moderate=True),
     Argument("KdlChain.fk", "q", Q[:6], KDL.fk),
     Argument("KdlChain.jacobian", "q", Q[:6], KDL.jacobian),
+    Argument("kdl.ik", "target", ARM.fk(Q[:6]), lambda T: kdl.ik(ARM, T, Q[:6]).q),
+    Argument("kdl.ik", "seed", Q[:6], lambda q: kdl.ik(ARM, ARM.fk(Q[:6]), q).q),
 ]
 TASK_PRIORITY = [
     Argument("step", "q", Q, lambda v: SOLVER.step(v, TARGETS), moderate=True),

@@ -26,7 +26,7 @@ KDL_SOURCE = CPP / "src" / "model" / "kdl_chain.cpp"
 URDF_SOURCE = CPP / "src" / "model" / "urdf.cpp"
 EXPAT_SOURCE = CPP / "src" / "model" / "urdf_document.cpp"
 # Targets of their own, so that only their users link what is foreign.
-APART = {KDL_SOURCE.name} | {
+APART = {KDL_SOURCE.name, "kdl_ik.cpp", "kdl_ik_search.cpp"} | {
     f"urdf{part}.cpp" for part in ("", "_document", "_excerpt", "_source", "_tree")
 }
 

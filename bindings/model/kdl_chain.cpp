@@ -2,6 +2,7 @@
 
 #include <mutex>
 
+#include "inverse/kdl_ik.hpp"
 #include "map.hpp"
 #include "model/chain.hpp"
 #include "thing_kin/core/error.hpp"
@@ -103,4 +104,5 @@ Examples
 >>> KdlChain(tk.robots.ur5()).jacobian(np.zeros(6)).shape
 (6, 6)
 )");
+  bind_kdl_ik(m);
 }

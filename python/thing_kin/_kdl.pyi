@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy
 import numpy.typing
 import thing_kin._core
-__all__: list[str] = ['KdlChain']
+import typing
+__all__: list[str] = ['KdlChain', 'ik']
 class KdlChain:
     """
     A chain as KDL sees it, computed by KDL's own solvers.
@@ -67,3 +68,7 @@ class KdlChain:
         >>> KdlChain(tk.robots.ur5()).jacobian(np.zeros(6)).shape
         (6, 6)
         """
+def ik(chain: thing_kin._core.Chain, target: numpy.typing.ArrayLike, seed: numpy.typing.ArrayLike | None = None, *, position_tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-07, rotation_tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-06, max_iterations: typing.SupportsInt | typing.SupportsIndex = 10000, max_restarts: typing.SupportsInt | typing.SupportsIndex = 100, deadline: typing.SupportsFloat | typing.SupportsIndex | None = None, rng: typing.SupportsInt | typing.SupportsIndex = 0, threads: typing.SupportsIndex | None = None) -> typing.Any:
+    """
+    See thing_kin.kdl.ik, which reads rng.
+    """

@@ -1,9 +1,11 @@
 #include "thing_kin/model/kdl_chain.hpp"
 
+#include <optional>
 #include <vector>
 
 #include <kdl/chain.hpp>
 #include <kdl/chainfksolverpos_recursive.hpp>
+#include <kdl/chainiksolverpos_lma.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
 
 namespace thing_kin {
@@ -47,6 +49,7 @@ struct KdlChain::Solvers {
       : chain(to_kdl(source)),
         order(source.description().order),
         q(static_cast<unsigned>(source.dof())),
+        end(static_cast<unsigned>(source.dof())),
         columns(static_cast<unsigned>(source.dof())),
         fk(chain),
         jacobian(chain) {}
@@ -57,12 +60,24 @@ struct KdlChain::Solvers {
     }
   }
 
+  KDL::ChainIkSolverPos_LMA& descent(double eps, int iterations) {
+    if (!lma || tolerance != eps || most != iterations) {
+      lma.emplace(chain, eps, iterations);
+      tolerance = eps;
+      most = iterations;
+    }
+    return *lma;
+  }
+
   KDL::Chain chain;
   std::vector<int> order;
-  KDL::JntArray q;
+  KDL::JntArray q, end;
   KDL::Jacobian columns;
   KDL::ChainFkSolverPos_recursive fk;
   KDL::ChainJntToJacSolver jacobian;
+  std::optional<KDL::ChainIkSolverPos_LMA> lma;  // made when first wanted
+  double tolerance = 0.0;
+  int most = 0;
 };
 
 KdlChain::KdlChain(const Chain& chain) : solvers_(std::make_unique<Solvers>(chain)) {}
@@ -96,6 +111,19 @@ Jacobian KdlChain::jacobian(const VectorView& q) {
     J.col(solvers_->order[i]) = solvers_->columns.data.col(static_cast<Eigen::Index>(i));
   }
   return J;
+}
+
+KdlChain::Descent KdlChain::descend(const SE3& target, const VectorView& start, double tolerance,
+                                    int most) {
+  solvers_->set(start);
+  KDL::ChainIkSolverPos_LMA& lma = solvers_->descent(tolerance, most);
+  solvers_->end = solvers_->q;
+  lma.CartToJnt(solvers_->q, to_kdl(target), solvers_->end);
+  Descent result{JointVector(dof()), lma.lastNrOfIter};
+  for (std::size_t i = 0; i < solvers_->order.size(); ++i) {
+    result.q[solvers_->order[i]] = solvers_->end(static_cast<unsigned>(i));
+  }
+  return result;
 }
 
 }  // namespace thing_kin

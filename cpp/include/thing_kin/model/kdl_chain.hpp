@@ -27,6 +27,16 @@ class KdlChain {
   /// Geometric Jacobian of the tool, axes of the world, [linear; angular].
   Jacobian jacobian(const VectorView& q);
 
+  /// Where one run of ChainIkSolverPos_LMA ends, whether it was successful or not.
+  struct Descent {
+    JointVector q;  ///< may be anywhere: KDL knows no limits, and turns joints many times
+    int iterations = 0;
+  };
+
+  /// One run towards a pose of the tool, with KDL's own weights [1, 1, 1, 0.01, 0.01, 0.01].
+  /// `tolerance` bounds the norm of the weighted error. Allocates when it or `most` changes.
+  Descent descend(const SE3& target, const VectorView& start, double tolerance, int most);
+
  private:
   struct Solvers;
   std::unique_ptr<Solvers> solvers_;
