@@ -41,6 +41,9 @@ void bind_task_vector(ChainClass& chain);
 
 void bind_differential_inverse(py::module_& m);
 void bind_task(py::module_& m);
+void bind_set_task(py::module_& m);
+void bind_limits(py::module_& m);
+void bind_limited_step(py::module_& m);
 void bind_task_priority(py::module_& m);
 
 }  // namespace thing_kin::python

@@ -41,5 +41,8 @@ PYBIND11_MODULE(_core, m) {
 
   bind_differential_inverse(m);
   bind_task(m);
+  bind_set_task(m);
+  bind_limits(m);
+  bind_limited_step(m);
   bind_task_priority(m);
 }
