@@ -43,12 +43,15 @@ class Cascade:
         rank = int(np.sum(sigma > 1e-10))
         rows = Vt[:rank] @ Z.T  # what the level is about
         H = M.T @ M + damping * Vt[:rank].T @ Vt[:rank]
-        z = self.quadratic(H, M.T @ (A @ x0 - b), x0, Z)
+        z, pressing = self.quadratic(H, M.T @ (A @ x0 - b), x0, Z)
         x = x0 + Z @ z
+        # What presses on a level stays where it is for those below: complementary slackness.
+        bounds = np.where(pressing > 0, self.upper, self.lower)[pressing != 0]
+        self.equalities.append((np.eye(len(x))[pressing != 0], bounds))
         self.equalities.append((rows, rows @ x))
         return x
 
-    def quadratic(self, H: Matrix, f: Vector, x0: Vector, Z: Matrix) -> Vector:
+    def quadratic(self, H: Matrix, f: Vector, x0: Vector, Z: Matrix) -> tuple[Vector, Vector]:
         solution = daqp.solve(
             np.ascontiguousarray(H),
             np.ascontiguousarray(f),
@@ -63,7 +66,9 @@ class Cascade:
             iter_limit=100_000,
         )
         assert solution[2] >= 1, solution[2:]
-        return np.asarray(solution[0])
+        multipliers = np.asarray(solution[3]["lam"])
+        least = 1e-10 * max(1.0, np.abs(f).max())
+        return np.asarray(solution[0]), np.sign(multipliers) * (np.abs(multipliers) > least)
 
 
 def hierarchy(

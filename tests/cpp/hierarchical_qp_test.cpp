@@ -206,8 +206,8 @@ TEST(HierarchicalQp, IntervalsAreKeptOrMissedByAsLittleAsCanBe) {
     const Eigen::VectorXd lower = Eigen::VectorXd::Constant(n, -1.0);
     const Eigen::VectorXd upper = Eigen::VectorXd::Constant(n, 1.0);
     const SmallMatrix C = random_matrix(rng, 4, n);
-    const SmallVector l = test::random_vector(rng, 4, 3.0);
-    const SmallVector u = l + SmallVector::Constant(4, 0.1);
+    const SmallVector l = test::random_vector(rng, 4, 1.5);
+    const SmallVector u = l + SmallVector::Constant(4, i % 3 == 0 ? kInfinity : 0.5);
     const SmallMatrix A = random_matrix(rng, 3, n);
     const SmallVector b = test::random_vector(rng, 3, 3.0);
     HierarchicalQp qp;

@@ -16,9 +16,10 @@ constexpr double kLeastWarm = 1e-8;
 // Rounding of a gradient, of a residual: parts of the numbers that they are the difference of.
 constexpr double kGradientRounding = 1e-12;
 constexpr double kResidualRounding = 1e-13;
+constexpr double kStationary = 1e-12;
 
-// Where the derivative of half the squared residuals along x + alpha d vanishes, at most 1:
-// piecewise linear and rising, with a kink where a row enters or leaves its interval.
+// Where the derivative of half the squared residuals along x + alpha d vanishes: piecewise linear
+// and rising, with a kink where a row enters or leaves its interval.
 class LineSearch {
  public:
   LineSearch(const SmallVector& v, const SmallVector& s, const SmallVector& l, const SmallVector& u)
@@ -27,16 +28,21 @@ class LineSearch {
   double best() const {
     double left = 0.0;
     double f_left = derivative(0.0);
-    while (f_left < 0.0 && left < 1.0) {
+    if (!(f_left < 0.0)) {
+      return 1.0;  // at a minimum but for rounding
+    }
+    while (true) {
       const double right = next_kink(left);
       const double f_right = derivative(right);
       if (f_right >= 0.0) {
         return left + (right - left) * (f_left / (f_left - f_right));
       }
+      if (right >= kFar) {
+        return 1.0;
+      }
       left = right;
       f_left = f_right;
     }
-    return 1.0;
   }
 
  private:
@@ -49,7 +55,7 @@ class LineSearch {
     return sum;
   }
   double next_kink(double left) const {
-    double next = 1.0;
+    double next = kFar;
     for (Eigen::Index i = 0; i < v_.size(); ++i) {
       for (const double bound : {l_[i], u_[i]}) {
         const double kink = (bound - v_[i]) / s_[i];
@@ -60,6 +66,8 @@ class LineSearch {
     }
     return next;
   }
+
+  static constexpr double kFar = 1e6;  // Newton's step is 1
 
   const SmallVector& v_;
   const SmallVector& s_;
@@ -199,9 +207,13 @@ bool HierarchicalQp::descend(const Level& level, const Residual& residual) {
   const JointVector d = working_.free_basis() * t;
   double alpha = 1.0;
   if (!level.equalities) {
+    const double rounding = level.scale * x_.norm() + residual.missed.norm();
+    if ((M * t).norm() <= kStationary * rounding) {
+      return false;  // which way the kinks lie from here is rounding
+    }
     alpha = LineSearch(level.K * x_, level.K * d, level.lower, level.upper).best();
   }
-  const bool whole = alpha > 1.0 - 1e-9;
+  const bool whole = std::abs(alpha - 1.0) < 1e-9;
   const int block = first_block(d, alpha);
   x_ += alpha * d;
   if (block < 0) {

@@ -13,6 +13,17 @@ constexpr double kClearlyRegular = 1e-6;
 // The Cholesky factor below squares R: half of the digits must be enough.
 constexpr double kWellConditioned = 1e-3;
 constexpr Eigen::Index kMaxRows = 8;
+// Rows that are the rest of a projection carry its rounding, and that of the projections before: a
+// singular value below this part of the whole is noise. What moves along it moves the rows by less.
+constexpr double kNoise = 1e-11;
+
+int rank_of(const Svd& svd, double scale) {
+  int rank = svd.rank;
+  while (rank > 0 && svd.sigma[rank - 1] <= kNoise * std::max(scale, svd.sigma[0])) {
+    --rank;
+  }
+  return rank;
+}
 
 bool regular(const SmallMatrix& R, Eigen::Index rank, double scale, double ratio) {
   return std::abs(R(rank - 1, rank - 1)) > ratio * std::max(std::abs(R(0, 0)), scale);
@@ -82,7 +93,7 @@ void RegularizedRows::factor(const SmallMatrix& M, double scale,
     return;
   }
   decompose(M, svd_, scale);
-  rank_ = svd_.rank;
+  rank_ = rank_of(svd_, scale);
   lifted_ = svd_.sigma.head(rank_);
   if (regularization.filter != nullptr) {
     for (double& sigma : lifted_) {
@@ -212,9 +223,10 @@ void least_squares(const SmallMatrix& M, const SmallVector& r, double scale,
   }
   Svd svd;
   decompose(M, svd, scale);
-  SmallVector along = svd.u.leftCols(svd.rank).transpose() * r;
-  along.array() /= svd.sigma.head(svd.rank).array();
-  t.noalias() = svd.v.leftCols(svd.rank) * along;
+  const int rank = rank_of(svd, scale);
+  SmallVector along = svd.u.leftCols(rank).transpose() * r;
+  along.array() /= svd.sigma.head(rank).array();
+  t.noalias() = svd.v.leftCols(rank) * along;
 }
 
 }  // namespace thing_kin
