@@ -83,7 +83,9 @@ def test_within_all_limits_it_is_the_recursion(tasks, inverse) -> None:
         if tasks is TASKS["twice"]:
             levels = [level_of(*case) for case in zip(tasks, [q] * 4, goals, strict=True)]
             levels[1:2] = []
-            expected = recursive_step(levels, lambda A, e, blocks: apply_inverse(inverse, A, e, blocks, None))
+            expected = recursive_step(
+                levels, lambda A, e, blocks: apply_inverse(inverse, A, e, blocks, None)
+            )
         expected = free.step(q, goals, np.ones(9))
         step = limited.solve(q, goals, np.ones(9))
         if np.all((q + expected <= ROBOT.upper) & (q + expected >= ROBOT.lower)):

@@ -11,7 +11,9 @@ from inverse_cases import HOME, ROBOT, SINGULAR_POSTURES
 DT = 0.01
 ARM = tk.Chain.from_dh(
     [
-        tk.DH(a=a, joint="revolute", lower=-2.0, upper=1.5, velocity_limit=v, acceleration_limit=8.0)
+        tk.DH(
+            a=a, joint="revolute", lower=-2.0, upper=1.5, velocity_limit=v, acceleration_limit=8.0
+        )
         for a, v in ((0.5, 2.0), (0.4, 1.0), (0.3, 3.0))
     ]
 )
@@ -69,7 +71,9 @@ def test_a_free_posture_is_reached_and_a_limited_one_as_nearly_as_can_be() -> No
     step = solver.solve(HOME, [far])
     np.testing.assert_allclose(step.dq, expected, atol=1e-15)
     np.testing.assert_array_equal(step.active_limits, np.sign(np.round(far - HOME, 12)))
-    assert {k for k, s in zip(step.limit_kinds, step.active_limits, strict=True) if s} == {"velocity"}
+    assert {k for k, s in zip(step.limit_kinds, step.active_limits, strict=True) if s} == {
+        "velocity"
+    }
 
 
 def test_the_names_of_what_is_active() -> None:
@@ -244,9 +248,7 @@ def test_arguments_that_make_no_sense() -> None:
             with pytest.raises(ValueError, match=f"^{name}: got .*, expected"):
                 tk.WheelLimits(**{**good, name: wrong})
     with pytest.raises(ValueError, match="^wheel_limits: got 'ur5'"):
-        tk.TaskPriority(
-            tk.robots.ur5(), [tk.PoseTask()], limits=True, dt=DT, wheel_limits=WHEELS
-        )
+        tk.TaskPriority(tk.robots.ur5(), [tk.PoseTask()], limits=True, dt=DT, wheel_limits=WHEELS)
     unlimited = tk.TaskPriority(ROBOT, [tk.PostureTask()])
     with pytest.raises(ValueError, match="^previous: got"):
         unlimited.step(HOME, [HOME], previous=HOME)

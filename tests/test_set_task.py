@@ -66,9 +66,7 @@ def test_a_point_stays_in_view_while_the_hand_moves_on() -> None:
 def test_a_tether_and_a_keep_out_sphere() -> None:
     p = ROBOT.fk(HOME)[:3, 3]
     pull = p + [0.0, 0.0, 0.4]
-    tether = run(
-        [tk.DistanceTask(upper=0.1), tk.PositionTask(gain=0.1)], lambda _: [p, pull], 200
-    )
+    tether = run([tk.DistanceTask(upper=0.1), tk.PositionTask(gain=0.1)], lambda _: [p, pull], 200)
     distances = [np.linalg.norm(ROBOT.fk(q)[:3, 3] - p) for q in tether]
     assert max(distances) < 0.1 + 1e-4
     assert distances[-1] == pytest.approx(0.1, abs=1e-6)
