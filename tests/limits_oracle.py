@@ -39,7 +39,7 @@ class Cascade:
         M = A @ Z
         if Z.shape[1] == 0:
             return x0
-        U, sigma, Vt = np.linalg.svd(M)
+        _, sigma, Vt = np.linalg.svd(M)
         rank = int(np.sum(sigma > 1e-10))
         rows = Vt[:rank] @ Z.T  # what the level is about
         H = M.T @ M + damping * Vt[:rank].T @ Vt[:rank]

@@ -247,13 +247,13 @@ def test_arguments_that_make_no_sense() -> None:
             good = {"radius": 0.1, "k": 0.5, "speed": 5.0}
             with pytest.raises(ValueError, match=f"^{name}: got .*, expected"):
                 tk.WheelLimits(**{**good, name: wrong})
-    with pytest.raises(ValueError, match="^wheel_limits: got 'ur5'"):
+    with pytest.raises(ValueError, match=r"^wheel_limits: got 'ur5'"):
         tk.TaskPriority(tk.robots.ur5(), [tk.PoseTask()], limits=True, dt=DT, wheel_limits=WHEELS)
     unlimited = tk.TaskPriority(ROBOT, [tk.PostureTask()])
-    with pytest.raises(ValueError, match="^previous: got"):
+    with pytest.raises(ValueError, match=r"^previous: got"):
         unlimited.step(HOME, [HOME], previous=HOME)
     for wrong in (HOME[:3], np.full(9, np.nan), "no"):
-        with pytest.raises(ValueError, match="^previous: got"):
+        with pytest.raises(ValueError, match=r"^previous: got"):
             posture_solver(ROBOT).step(HOME, [HOME], previous=wrong)
     assert not unlimited.limits
     assert posture_solver(ROBOT).limits

@@ -65,12 +65,12 @@ def test_a_point_stays_in_view_while_the_hand_moves_on() -> None:
 
 def test_a_tether_and_a_keep_out_sphere() -> None:
     p = ROBOT.fk(HOME)[:3, 3]
-    pull = p + [0.0, 0.0, 0.4]
+    pull = p + np.array([0.0, 0.0, 0.4])
     tether = run([tk.DistanceTask(upper=0.1), tk.PositionTask(gain=0.1)], lambda _: [p, pull], 200)
     distances = [np.linalg.norm(ROBOT.fk(q)[:3, 3] - p) for q in tether]
     assert max(distances) < 0.1 + 1e-4
     assert distances[-1] == pytest.approx(0.1, abs=1e-6)
-    sphere = p + [0.0, 0.01, 0.2]
+    sphere = p + np.array([0.0, 0.01, 0.2])
     around = run(
         [tk.DistanceTask(lower=0.15), tk.PositionTask(gain=0.1)], lambda _: [sphere, pull], 400
     )
@@ -153,15 +153,15 @@ def test_what_makes_no_interval(make, said: str) -> None:
 
 def test_where_they_do_not_fit() -> None:
     task = tk.BaseObstacleTask(0.5)
-    with pytest.raises(ValueError, match="^tasks: got BaseObstacleTask without limits"):
+    with pytest.raises(ValueError, match=r"^tasks: got BaseObstacleTask without limits"):
         tk.TaskPriority(THING, [task])
-    with pytest.raises(ValueError, match="^tasks: got BaseObstacleTask for 'ur5'"):
+    with pytest.raises(ValueError, match=r"^tasks: got BaseObstacleTask for 'ur5'"):
         tk.TaskPriority(tk.robots.ur5(), [task], limits=True, dt=DT)
     ranges = tk.JointRangeTask(np.zeros(3), np.ones(3))
-    with pytest.raises(ValueError, match="^tasks: got JointRangeTask of 3"):
+    with pytest.raises(ValueError, match=r"^tasks: got JointRangeTask of 3"):
         tk.TaskPriority(THING, [ranges], limits=True, dt=DT)
     many = [tk.JointRangeTask(np.zeros(9), np.ones(9))] * 8
-    with pytest.raises(ValueError, match="^tasks: got 72 rows"):
+    with pytest.raises(ValueError, match=r"^tasks: got 72 rows"):
         tk.TaskPriority(THING, many, limits=True, dt=DT)
     solver = tk.TaskPriority(THING, [task, many[0]], limits=True, dt=DT)
     with pytest.raises(ValueError, match=r"^targets\[1\]: got .*, expected None"):
