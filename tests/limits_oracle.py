@@ -14,6 +14,10 @@ Vector = NDArray[np.float64]
 Matrix = NDArray[np.float64]
 
 
+class NoAnswerError(Exception):
+    """The solver finds nothing in what a level above has left: a set as thin as its tolerance."""
+
+
 @dataclass
 class Cascade:
     """A quadratic program a level; what a level has reached is an equality for those below."""
@@ -65,7 +69,8 @@ class Cascade:
             progress_tol=1e-16,
             iter_limit=100_000,
         )
-        assert solution[2] >= 1, solution[2:]
+        if solution[2] < 1:
+            raise NoAnswerError(solution[2])
         multipliers = np.asarray(solution[3]["lam"])
         least = 1e-10 * max(1.0, np.abs(f).max())
         return np.asarray(solution[0]), np.sign(multipliers) * (np.abs(multipliers) > least)

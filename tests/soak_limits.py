@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 import thing_kin as tk
 from inverse_cases import HOME, ROBOT, jacobian_of, target_of
-from limits_oracle import hierarchy, levels_of
+from limits_oracle import NoAnswerError, hierarchy, levels_of
 
 Vector = NDArray[np.float64]
 
@@ -56,6 +56,7 @@ class Report:
     leak: float = 0.0  # over max(1, |dq|)
     oracle: float = 0.0
     compared: int = 0
+    unanswered: int = 0
     limited: int = 0
     iterations: int = 0
     status: Counter = field(default_factory=Counter)
@@ -137,7 +138,11 @@ def check(case: Case, report: Report, with_oracle: bool) -> None:
     if with_oracle and not (case.filtered or case.wheels or case.previous is not None):
         levels = levels_of(case.tasks, case.q, case.targets)
         damping = case.inverse.damping if isinstance(case.inverse, tk.Damped) else 0.0
-        theirs = hierarchy(*box(case), levels, damping=damping)
+        try:
+            theirs = hierarchy(*box(case), levels, damping=damping)
+        except NoAnswerError:
+            report.unanswered += 1
+            return
         report.compared += 1
         for A, _ in levels:
             report.oracle = max(report.oracle, float(np.linalg.norm(A @ (dq - theirs))))

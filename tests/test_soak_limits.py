@@ -10,4 +10,5 @@ def test_two_thousand_random_steps() -> None:
     assert report.oracle < 1e-8  # two solvers' tolerances, on problems of any condition
     assert report.status == {"optimal": 2_000}
     assert report.compared > 80
+    assert report.unanswered < 5
     assert 500 < report.limited < 2_000

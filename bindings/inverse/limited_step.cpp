@@ -41,7 +41,7 @@ Examples
 --------
 >>> import numpy as np, thing_kin as tk
 >>> robot = tk.robots.thing()
->>> solver = tk.TaskPriority(robot, [tk.BaseTask()], limits=True, dt=0.01, step_limit=0.05)
+>>> solver = tk.TaskPriority(robot, [tk.BaseTask()], limits=True, dt=0.1, step_limit=0.05)
 >>> step = solver.solve(np.zeros(9), [(0.1, 0.02, 0.0)])
 >>> step.active_limits
 array([0, 0, 0, 0, 0, 0, 1, 0, 0], dtype=int8)

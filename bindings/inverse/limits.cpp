@@ -35,9 +35,9 @@ Examples
 WheelLimits(radius=0.1, k=0.5, speed=10.0)
 )")
       .def(py::init<double, double, double>(), py::arg("radius"), py::arg("k"), py::arg("speed"))
-      .def_readonly("radius", &WheelLimits::radius, "R, m.")
+      .def_readonly("radius", &WheelLimits::radius, "R of a wheel, m.")
       .def_readonly("k", &WheelLimits::k, "Half the wheel base plus half the track, m.")
-      .def_readonly("speed", &WheelLimits::speed, "rad/s.")
+      .def_readonly("speed", &WheelLimits::speed, "The largest speed, rad/s.")
       .def(py::self == py::self)
       .def("__hash__",
            [](const WheelLimits& w) { return py::hash(py::make_tuple(w.radius, w.k, w.speed)); })

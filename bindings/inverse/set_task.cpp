@@ -58,8 +58,8 @@ DistanceTask(lower=0.3, upper=inf, gain=1.0, of='forearm')
                }),
            py::arg("lower") = 0.0, py::arg("upper") = std::numeric_limits<double>::infinity(),
            py::arg("gain") = 1.0, py::kw_only(), py::arg("of") = py::none())
-      .def_property_readonly("lower", &DistanceTask::lower, "m.")
-      .def_property_readonly("upper", &DistanceTask::upper, "m.")
+      .def_property_readonly("lower", &DistanceTask::lower, "The least distance, m.")
+      .def_property_readonly("upper", &DistanceTask::upper, "The largest distance, m.")
       .def("__repr__", [](const py::object& self) {
         return py::str("DistanceTask(lower={}, upper={}, gain={}, of={!r})")
             .format(self.attr("lower"), self.attr("upper"), self.attr("gain"), self.attr("of"));
@@ -92,7 +92,7 @@ Examples
 BaseObstacleTask(radius=0.8, gain=1.0)
 )")
       .def(py::init<double, double>(), py::arg("radius"), py::arg("gain") = 1.0)
-      .def_property_readonly("radius", &BaseObstacleTask::radius, "m.")
+      .def_property_readonly("radius", &BaseObstacleTask::radius, "The least distance, m.")
       .def("__repr__", [](const BaseObstacleTask& task) {
         return py::str("BaseObstacleTask(radius={}, gain={})").format(task.radius(), task.gain());
       });
@@ -137,7 +137,7 @@ array([0., 0., 1.])
            }),
            py::arg("limit"), py::arg("axis") = py::none(), py::arg("gain") = 1.0, py::kw_only(),
            py::arg("of") = py::none())
-      .def_property_readonly("limit", &FieldOfViewTask::limit, "rad.")
+      .def_property_readonly("limit", &FieldOfViewTask::limit, "The largest angle, rad.")
       .def_property_readonly(
           "axis", [](const FieldOfViewTask& task) { return frozen(task.axis()); },
           "In the frame, of unit length.")
@@ -179,9 +179,11 @@ np.float64(1.0)
            }),
            py::arg("lower"), py::arg("upper"), py::arg("gain") = 1.0)
       .def_property_readonly(
-          "lower", [](const JointRangeTask& task) { return frozen(task.lower()); }, "rad and m.")
+          "lower", [](const JointRangeTask& task) { return frozen(task.lower()); },
+          "The ranges' lower ends, rad and m.")
       .def_property_readonly(
-          "upper", [](const JointRangeTask& task) { return frozen(task.upper()); }, "rad and m.")
+          "upper", [](const JointRangeTask& task) { return frozen(task.upper()); },
+          "The ranges' upper ends, rad and m.")
       .def("__repr__", [](const JointRangeTask& task) {
         return py::str("JointRangeTask({} joints, gain={})").format(task.joints(), task.gain());
       });

@@ -40,26 +40,49 @@ std::optional<JointVector> read_step_limit(const py::object& limit, int n) {
   return read_number_or_vector(limit, "step_limit", n, Finite::kNo);
 }
 
-// One target, checked, and kept alive by its Batch.
-Batch read_target(const Task& task, const Chain& chain, py::handle target, std::size_t i) {
-  const auto [rows, cols] = task.target_shape(chain);
+// What is quick to read is read at once; the rest has the general way, which names what is wrong.
+void read_vector(py::handle argument, const char* name, py::ssize_t n, JointVector& out) {
+  out.resize(n);
+  if (!read_plain(argument, {n}, out.data())) {
+    out = vector_at(read(argument, name, {n}, false), 0);
+  }
+}
+
+bool rigid(const double* rows, int n) {
+  Eigen::Matrix4d T = Eigen::Matrix4d::Identity();
+  for (int row = 0; row < n; ++row) {
+    for (int col = 0; col < n; ++col) {
+      T(row, col) = rows[n * row + col];
+    }
+  }
+  return is_rigid(T);
+}
+
+void read_other_target(std::array<int, 2> shape, py::handle target, std::size_t i, double* out) {
+  const auto [rows, cols] = shape;
   const std::string name = "targets[" + std::to_string(i) + "]";
   if (rows == 0) {
-    if (!target.is_none()) {
-      throw InvalidArgument(name, py::str(py::type::of(target).attr("__name__")), "None");
-    }
-    return {};
+    throw InvalidArgument(name, py::str(py::type::of(target).attr("__name__")), "None");
   }
+  Batch batch;
   if (cols == 0) {
-    return read(target, name.c_str(), {rows}, false);
-  }
-  Batch batch = read(target, name.c_str(), {rows, cols}, false);
-  if (rows == 4) {
-    read_pose(batch.data, name.c_str());
+    batch = read(target, name.c_str(), {rows}, false);
   } else {
-    read_rotation(batch.data, name.c_str());
+    batch = read(target, name.c_str(), {rows, cols}, false);
+    rows == 4 ? static_cast<void>(read_pose(batch.data, name.c_str()))
+              : static_cast<void>(read_rotation(batch.data, name.c_str()));
   }
-  return batch;
+  std::copy_n(batch.data, batch.size, out);
+}
+
+void read_target(std::array<int, 2> shape, py::handle target, std::size_t i, double* out) {
+  const auto [rows, cols] = shape;
+  const bool done = rows == 0   ? target.is_none()
+                    : cols == 0 ? read_plain(target, {rows}, out)
+                                : read_plain(target, {rows, cols}, out) && rigid(out, rows);
+  if (!done) {
+    read_other_target(shape, target, i, out);
+  }
 }
 
 // What one step needs, copied, so that another thread that writes the arrays can't disturb it.
@@ -68,25 +91,29 @@ struct Inputs {
          const py::object& null_motion, const py::object& previous_step)
       : count(solver.tasks().size()) {
     const int n = solver.chain().dof();
-    q = vector_at(read(q_argument, "q", {n}, false), 0);
-    if (targets.size() != count) {
-      throw InvalidArgument("targets", std::to_string(targets.size()),
+    read_vector(q_argument, "q", n, q);
+    const std::size_t given = targets.size();
+    if (given != count) {
+      throw InvalidArgument("targets", std::to_string(given),
                             std::to_string(count) + ", one a task");
     }
     for (std::size_t i = 0; i < count; ++i) {
-      const Batch target =
-          read_target(*solver.tasks()[i], solver.chain(), py::object(targets[i]), i);
-      std::copy_n(target.data, target.data != nullptr ? target.size : 0, values[i].begin());
+      const auto target = py::reinterpret_steal<py::object>(
+          PySequence_GetItem(targets.ptr(), static_cast<py::ssize_t>(i)));
+      if (!target) {
+        throw py::error_already_set();
+      }
+      read_target(solver.tasks()[i]->target_shape(solver.chain()), target, i, values[i].data());
       pointers[i] = values[i].data();
     }
     if (!null_motion.is_none()) {
-      z = vector_at(read(null_motion, "null_motion", {n}, false), 0);
+      read_vector(null_motion, "null_motion", n, z);
     }
     if (!previous_step.is_none()) {
       if (!solver.options().limits) {
         throw InvalidArgument("previous", "a step without limits", "None, or limits=True");
       }
-      previous = vector_at(read(previous_step, "previous", {n}, false), 0);
+      read_vector(previous_step, "previous", n, previous);
     }
   }
 
@@ -99,7 +126,7 @@ struct Inputs {
   JointVector z;
   JointVector previous;
   std::array<std::array<double, kMaxDof>, kMaxTasks> values;
-  std::array<const double*, kMaxTasks> pointers{};
+  std::array<const double*, kMaxTasks> pointers;
 };
 
 // A step with its diagnosis, as Python sees it.
@@ -107,7 +134,12 @@ struct ExplainedStep : TaskPriorityStep {
   std::array<SmallVector, kMaxTasks + 1> sigma;  // empty for the null-space motion
 };
 
-Array to_array(const JointVector& v) { return Array(v.size(), v.data()); }
+Array to_array(const JointVector& v) {
+  const py::ssize_t n = v.size();
+  Array array = make_array(&n, 1);
+  std::copy_n(v.data(), n, array.mutable_data());
+  return array;
+}
 
 Array contributions(const ExplainedStep& step) {
   const py::ssize_t n = step.dq.size();

@@ -222,7 +222,7 @@ TEST(NoHeap, TaskPriorityInEverySchemeAndInverse) {
 TEST(NoHeap, TaskPriorityWithinLimits) {
   const Chain robot = robots::thing();
   test::Generator rng(7);
-  const Eigen::VectorXd q = test::random_vector(rng, 9);
+  const Eigen::VectorXd q = test::random_vector(rng, 9, 0.9);
   const Eigen::VectorXd goal = test::random_vector(rng, 9);
   const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> T =
       forward_kinematics(robot, goal.data(), robot.tool()).matrix();
@@ -232,6 +232,7 @@ TEST(NoHeap, TaskPriorityWithinLimits) {
   const Eigen::VectorXd z = test::random_vector(rng, 9);
   auto step = std::make_unique<LimitedStep>();
   const JointVector one = JointVector::Ones(9);
+  const JointVector previous = 1e-3 * one;
   for (const std::optional<SingularValueFilter>& filter :
        {std::optional<SingularValueFilter>(), std::optional(SingularValueFilter(0.01, 10.0))}) {
     TaskPriorityOptions options =
@@ -246,7 +247,7 @@ TEST(NoHeap, TaskPriorityWithinLimits) {
         options);
     JointVector dq;
     EXPECT_EQ(allocations_in([&] {
-                solver.solve_limited(q.data(), targets, z.data(), z.data(), *step);
+                solver.solve_limited(q.data(), targets, z.data(), previous.data(), *step);
                 solver.step_limited(q.data(), targets, nullptr, nullptr, dq);
               }),
               0);

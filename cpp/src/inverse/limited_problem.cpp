@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "thing_kin/linalg/hierarchical_qp.hpp"
+#include "thing_kin/linalg/small_product.hpp"
 
 namespace thing_kin {
 
@@ -38,7 +39,10 @@ void recursion(const LimitedProblem& problem, JointVector& dq) {
       continue;
     }
     const SmallMatrix& J = level.value.jacobian;
-    const SmallMatrix reduced = whole ? SmallMatrix() : SmallMatrix(J * Z);
+    SmallMatrix reduced;
+    if (!whole) {
+      multiply(J, Z, reduced);
+    }
     rows.factor(whole ? J : reduced, J.norm(), problem.regularization);
     rows.solve(level.wanted - J * dq, z);
     rows.null_space(V2);
@@ -47,7 +51,8 @@ void recursion(const LimitedProblem& problem, JointVector& dq) {
       Z = V2;
     } else {
       dq.noalias() += Z * z;
-      const SmallMatrix below = Z * V2;
+      SmallMatrix below;
+      multiply(Z, V2, below);
       Z = below;
     }
     whole = false;

@@ -11,6 +11,8 @@ namespace thing_kin {
 
 /// A step as linear levels in a box.
 struct LimitedProblem {
+  LimitedProblem() {}  // what is not used is not touched: the levels alone are 140 kB
+
   struct Level {
     bool interval;
     TaskValue value;           // J and error of the task
@@ -19,7 +21,9 @@ struct LimitedProblem {
   };
   int joints = 0;
   int count = 0;
-  std::array<Level, kMaxTasks> levels;
+  union {
+    std::array<Level, kMaxTasks> levels;
+  };
   StepBox box;
   SmallMatrix wheel_rows;  // none or four
   SmallVector wheel_limit;

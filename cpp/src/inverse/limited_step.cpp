@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "limited_problem.hpp"
 #include "thing_kin/core/error.hpp"
@@ -65,7 +66,7 @@ void TaskPriority::check_limits() const {
 
 void TaskPriority::pose_level(std::size_t i, const Posture& posture, const double* q,
                               const double* target, LimitedProblem& problem) const noexcept {
-  LimitedProblem::Level& level = problem.levels[i];
+  LimitedProblem::Level& level = *std::construct_at(&problem.levels[i]);
   level.interval = sets_[i] != nullptr;
   const double gain = tasks_[i]->gain();
   if (!level.interval) {

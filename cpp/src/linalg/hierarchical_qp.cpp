@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "thing_kin/linalg/small_product.hpp"
 
 namespace thing_kin {
 
@@ -80,7 +81,7 @@ class LineSearch {
 // A constraint's row: of the box first, then of the intervals kept.
 double HierarchicalQp::value(int row) const {
   const auto n = static_cast<int>(x_.size());
-  return row < n ? x_[row] : rows_[static_cast<std::size_t>(row - n)].dot(x_);
+  return row < n ? x_[row] : rows_.col(row - n).dot(x_);
 }
 
 double HierarchicalQp::bound(int row, int side) const {
@@ -91,7 +92,7 @@ double HierarchicalQp::bound(int row, int side) const {
 
 double HierarchicalQp::slope(int row, const JointVector& d) const {
   const auto n = static_cast<int>(x_.size());
-  return row < n ? d[row] : rows_[static_cast<std::size_t>(row - n)].dot(d);
+  return row < n ? d[row] : rows_.col(row - n).dot(d);
 }
 
 void HierarchicalQp::along_basis(int row, SmallVector& along) const {
@@ -100,7 +101,7 @@ void HierarchicalQp::along_basis(int row, SmallVector& along) const {
   if (row < n) {
     along = Q.row(row).transpose();
   } else {
-    along.noalias() = Q.transpose() * rows_[static_cast<std::size_t>(row - n)];
+    along.noalias() = Q.transpose() * rows_.col(row - n);
   }
 }
 
@@ -119,6 +120,7 @@ void HierarchicalQp::begin(const JointVector& lower, const JointVector& upper,
   upper_ = upper;
   x_ = guess.cwiseMax(lower).cwiseMin(upper);
   count_ = kept_count_ = iterations_ = 0;
+  rows_.resize(n, kMaxIntervalRows);
   converged_ = true;
   Z_.setZero(n, n);
   int free = 0;
@@ -197,7 +199,8 @@ bool HierarchicalQp::descend(const Level& level, const Residual& residual) {
   if (working_.free() == 0) {
     return false;
   }
-  const SmallMatrix M = residual.matrix(level) * working_.free_basis();
+  SmallMatrix M;
+  multiply(residual.matrix(level), working_.free_basis(), M);
   SmallVector t;
   if (level.orthonormal) {
     t.noalias() = M.transpose() * -residual.missed;
@@ -299,7 +302,8 @@ void HierarchicalQp::leave(const Level& level, const Residual& residual,
   SmallMatrix V2;
   if (count == 0 && rows != nullptr) {
     rows->null_space(V2);
-    const SmallMatrix below = Z_ * V2;
+    SmallMatrix below;
+    multiply(Z_, V2, below);
     Z_ = below;
     return;
   }
@@ -310,9 +314,11 @@ void HierarchicalQp::leave(const Level& level, const Residual& residual,
   }
   const SmallMatrix N = working_.free_basis();
   RegularizedRows left;
-  left.factor(residual.matrix(level) * N, level.scale, {});
+  SmallMatrix M;
+  multiply(residual.matrix(level), N, M);
+  left.factor(M, level.scale, {});
   left.null_space(V2);
-  Z_.noalias() = N * V2;
+  multiply(N, V2, Z_);
 }
 
 // The rows of an interval level that hold are kept from here on; those that can't are fixed
@@ -324,8 +330,8 @@ void HierarchicalQp::remember(const Level& level, const Residual& residual) {
       continue;
     }
     const auto k = static_cast<std::size_t>(count_);
-    rows_[k] = level.K.row(i).transpose() / length;
-    const double at = rows_[k].dot(x_);
+    rows_.col(count_) = level.K.row(i).transpose() / length;
+    const double at = rows_.col(count_).dot(x_);
     row_lower_[k] = std::min(level.lower[i] / length, at);
     row_upper_[k] = std::max(level.upper[i] / length, at);
     const int row = constraints();
@@ -354,7 +360,8 @@ void HierarchicalQp::minimize(const SmallMatrix& A, const SmallVector& b,
   if (free() == 0) {
     return;
   }
-  const SmallMatrix M = A * Z_;
+  SmallMatrix M;
+  multiply(A, Z_, M);
   RegularizedRows rows;
   rows.factor(M, A.norm(), regularization);
   const SmallVector z = Z_.transpose() * x_;
@@ -362,7 +369,7 @@ void HierarchicalQp::minimize(const SmallMatrix& A, const SmallVector& b,
   SmallMatrix K;
   Level level;
   rows.square_root(M, r, K, level.lower);
-  level.K.noalias() = K * Z_.transpose();
+  multiply(K, Z_.transpose(), level.K);
   Residual residual;
   solve(level, residual);
   leave(level, residual, &rows);

@@ -75,10 +75,4 @@ void PivotedQr::apply_q(double* x) const {
   }
 }
 
-void PivotedQr::apply_q_transposed(double* x) const {
-  for (Eigen::Index j = 0; j < cols_; ++j) {
-    reflect(j, x);
-  }
-}
-
 }  // namespace thing_kin

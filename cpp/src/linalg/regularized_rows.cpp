@@ -7,12 +7,10 @@ namespace thing_kin {
 
 namespace {
 
-// With column pivoting the last diagonal entry of R shows a lost rank but for a factor of 2^m: far
-// above it the singular values need not be asked.
-constexpr double kClearlyRegular = 1e-6;
+// Above this part of the whole the smallest singular value is no question of rank.
+constexpr double kClearlyRegular = 1e-7;
 // The Cholesky factor below squares R: half of the digits must be enough.
-constexpr double kWellConditioned = 1e-3;
-constexpr Eigen::Index kMaxRows = 8;
+constexpr double kWellConditioned = 1e-4;
 // Rows that are the rest of a projection carry its rounding, and that of the projections before: a
 // singular value below this part of the whole is noise. What moves along it moves the rows by less.
 constexpr double kNoise = 1e-11;
@@ -25,45 +23,20 @@ int rank_of(const Svd& svd, double scale) {
   return rank;
 }
 
-bool regular(const SmallMatrix& R, Eigen::Index rank, double scale, double ratio) {
-  return std::abs(R(rank - 1, rank - 1)) > ratio * std::max(std::abs(R(0, 0)), scale);
-}
-
-// x <- U^-T x for the upper triangle of the leading n x n block.
-void solve_transposed(const SmallMatrix& U, Eigen::Index n, double* x) {
-  for (Eigen::Index i = 0; i < n; ++i) {
-    double sum = x[i];
-    for (Eigen::Index j = 0; j < i; ++j) {
-      sum -= U(j, i) * x[j];
-    }
-    x[i] = sum / U(i, i);
-  }
-}
-
-// x <- U^-1 x.
-void solve_upper(const SmallMatrix& U, Eigen::Index n, double* x) {
-  for (Eigen::Index i = n - 1; i >= 0; --i) {
-    double sum = x[i];
-    for (Eigen::Index j = i + 1; j < n; ++j) {
-      sum -= U(i, j) * x[j];
-    }
-    x[i] = sum / U(i, i);
-  }
-}
-
 // Upper triangular S with S^T S = R R^T + damping.
-void damped_root(const SmallMatrix& R, Eigen::Index n, double damping, SmallMatrix& S) {
-  S.resize(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = i; j < n; ++j) {
+template <typename Root>
+void damped_root(const RowQr& qr, double damping, Root& S) {
+  const int m = qr.rows();
+  for (int i = 0; i < m; ++i) {
+    for (int j = i; j < m; ++j) {
       double sum = i == j ? damping : 0.0;
-      for (Eigen::Index k = j; k < n; ++k) {
-        sum += R(i, k) * R(j, k);
+      for (int k = j; k < m; ++k) {
+        sum += qr.r(i, k) * qr.r(j, k);
       }
-      for (Eigen::Index k = 0; k < i; ++k) {
-        sum -= S(k, i) * S(k, j);
+      for (int k = 0; k < i; ++k) {
+        sum -= S[k][i] * S[k][j];
       }
-      S(i, j) = i == j ? std::sqrt(sum) : sum / S(i, i);
+      S[i][j] = i == j ? std::sqrt(sum) : sum / S[i][i];
     }
   }
 }
@@ -80,15 +53,14 @@ void RegularizedRows::factor(const SmallMatrix& M, double scale,
     svd_.v.setIdentity(M.cols(), M.cols());
     return;
   }
-  if (m <= std::min(M.cols(), kMaxRows) && regularization.filter == nullptr) {
-    factors_ = M.transpose();
-    qr_.factor(factors_);
-    regular_ = regular(factors_, m, scale, damped_ ? kWellConditioned : kClearlyRegular);
+  if (m <= M.cols() && m <= RowQr::kMaxRows && regularization.filter == nullptr) {
+    qr_.factor(M);
+    regular_ = qr_.least_singular_value() > (damped_ ? kWellConditioned : kClearlyRegular) * scale;
   }
   if (regular_) {
     rank_ = static_cast<int>(m);
     if (damped_) {
-      damped_root(factors_, m, regularization.damping, root_);
+      damped_root(qr_, regularization.damping, root_);
     }
     return;
   }
@@ -110,48 +82,48 @@ void RegularizedRows::right_hand_side(const SmallVector& r, SmallVector& s) cons
     s.array() *= lifted_.array() / length_.array();
     return;
   }
-  SmallVector permuted(rank_);
-  for (Eigen::Index i = 0; i < rank_; ++i) {
-    permuted[i] = r[qr_.pivot(i)];
+  s.resize(rank_);
+  for (int i = 0; i < rank_; ++i) {  // S^T s = R r
+    double sum = 0.0;
+    for (int k = i; k < rank_; ++k) {
+      sum += qr_.r(i, k) * r[k];
+    }
+    for (int k = 0; k < i; ++k) {
+      sum -= root_[k][i] * s[k];
+    }
+    s[i] = sum / root_[i][i];
   }
-  s = factors_.topRows(rank_).triangularView<Eigen::Upper>() * permuted;
-  solve_transposed(root_, rank_, s.data());
 }
 
 void RegularizedRows::solve(const SmallVector& r, SmallVector& z) const noexcept {
+  SmallVector y;
   if (!regular_) {
-    right_hand_side(r, z);
-    z.array() /= length_.array();
-    const SmallVector y = z;
+    right_hand_side(r, y);
+    y.array() /= length_.array();
     z.noalias() = svd_.v.leftCols(rank_) * y;
     return;
   }
-  const Eigen::Index f = factors_.rows();
   if (damped_) {
-    right_hand_side(r, z);
-    solve_upper(root_, rank_, z.data());
-    z.conservativeResize(f);
-  } else {
-    z.resize(f);
-    for (Eigen::Index i = 0; i < rank_; ++i) {
-      z[i] = r[qr_.pivot(i)];
+    right_hand_side(r, y);
+    for (int i = rank_ - 1; i >= 0; --i) {  // S y = s
+      for (int k = i + 1; k < rank_; ++k) {
+        y[i] -= root_[i][k] * y[k];
+      }
+      y[i] /= root_[i][i];
     }
-    solve_transposed(factors_, rank_, z.data());
+  } else {
+    y = r;
+    qr_.solve_r_transposed(y.data());
   }
-  z.tail(f - rank_).setZero();
-  qr_.apply_q(z.data());
+  z.resize(qr_.cols());
+  qr_.lift(y.data(), z.data());
 }
 
 void RegularizedRows::null_space(SmallMatrix& V2) const noexcept {
-  if (!regular_) {
+  if (regular_) {
+    qr_.null_space(V2);
+  } else {
     V2 = svd_.v.rightCols(svd_.v.cols() - rank_);
-    return;
-  }
-  const Eigen::Index f = factors_.rows();
-  V2.setZero(f, f - rank_);
-  for (Eigen::Index j = 0; j < f - rank_; ++j) {
-    V2(rank_ + j, j) = 1.0;
-    qr_.apply_q(&V2(0, j));
   }
 }
 
@@ -167,46 +139,43 @@ void RegularizedRows::square_root(const SmallMatrix& M, const SmallVector& r, Sm
     K = length_.asDiagonal() * svd_.v.leftCols(rank_).transpose();
     return;
   }
-  SmallMatrix V1 = SmallMatrix::Zero(factors_.rows(), rank_);
-  for (Eigen::Index j = 0; j < rank_; ++j) {
-    V1(j, j) = 1.0;
-    qr_.apply_q(&V1(0, j));
+  SmallMatrix V1;
+  qr_.row_space(V1);
+  K.setZero(rank_, V1.rows());
+  for (int i = 0; i < rank_; ++i) {
+    for (int k = i; k < rank_; ++k) {
+      K.row(i) += root_[i][k] * V1.col(k).transpose();
+    }
   }
-  K.noalias() = root_.triangularView<Eigen::Upper>() * V1.transpose();
 }
 
 namespace {
 
 // By QR of M if it is tall, of its transpose if not; false if M may lack rank.
 bool solve_regular(const SmallMatrix& M, const SmallVector& r, double scale, SmallVector& t) {
-  const Eigen::Index rows = M.rows();
-  const Eigen::Index cols = M.cols();
-  const Eigen::Index rank = std::min(rows, cols);
-  if (rank > kMaxRows) {
+  const bool tall = M.rows() > M.cols();
+  if (std::min(M.rows(), M.cols()) > RowQr::kMaxRows) {
     return false;
   }
-  PivotedQr qr;
-  SmallMatrix R = rows > cols ? M : SmallMatrix(M.transpose());
-  qr.factor(R);
-  if (!regular(R, rank, scale, kClearlyRegular)) {
+  RowQr qr;
+  if (tall) {
+    qr.factor(M.transpose());
+  } else {
+    qr.factor(M);
+  }
+  if (!(qr.least_singular_value() > kClearlyRegular * scale)) {
     return false;
   }
-  t.resize(cols);
-  if (rows > cols) {
-    SmallVector image = r;
-    qr.apply_q_transposed(image.data());
-    solve_upper(R, rank, image.data());
-    for (Eigen::Index i = 0; i < rank; ++i) {
-      t[qr.pivot(i)] = image[i];
-    }
-    return true;
+  t.resize(M.cols());
+  SmallVector y = r;
+  if (tall) {
+    qr.apply_q_transposed(y.data());
+    qr.solve_r(y.data());
+    t = y.head(M.cols());
+  } else {
+    qr.solve_r_transposed(y.data());
+    qr.lift(y.data(), t.data());
   }
-  for (Eigen::Index i = 0; i < rank; ++i) {
-    t[i] = r[qr.pivot(i)];
-  }
-  solve_transposed(R, rank, t.data());
-  t.tail(cols - rank).setZero();
-  qr.apply_q(t.data());
   return true;
 }
 

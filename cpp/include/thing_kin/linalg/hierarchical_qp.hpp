@@ -84,8 +84,9 @@ class HierarchicalQp {
   JointVector lower_, upper_, x_;
   SmallMatrix Z_;  // orthonormal: what the levels so far leave free, but for bounds
   WorkingSet working_;
-  SmallVector mu_;                                  // of the working set, at the end of a level
-  std::array<JointVector, kMaxIntervalRows> rows_;  // of unit length
+  SmallVector mu_;  // of the working set, at the end of a level
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxDof, kMaxIntervalRows>
+      rows_;  // of unit length, a column each
   std::array<double, kMaxIntervalRows> row_lower_, row_upper_;
   int count_ = 0;
   std::array<State, kMaxDof + kMaxIntervalRows> state_;

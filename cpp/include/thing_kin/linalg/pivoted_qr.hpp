@@ -19,9 +19,6 @@ class PivotedQr {
   /// x <- Q x, x of r entries.
   void apply_q(double* x) const;
 
-  /// x <- Q^T x.
-  void apply_q_transposed(double* x) const;
-
  private:
   void reflect(Eigen::Index j, double* x) const;
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "thing_kin/linalg/pivoted_qr.hpp"
+#include "thing_kin/linalg/row_qr.hpp"
 #include "thing_kin/linalg/singular_value_filter.hpp"
 #include "thing_kin/linalg/svd.hpp"
 
@@ -35,12 +35,11 @@ class RegularizedRows {
  private:
   void right_hand_side(const SmallVector& r, SmallVector& s) const noexcept;
 
-  bool regular_ = false;  // by QR: L = P R^T; else by singular values: L = U Sigma
+  bool regular_ = false;  // by QR: L = R^T; else by singular values: L = U Sigma
   bool damped_ = false;
   int rank_ = 0;
-  SmallMatrix factors_;  // R in the upper triangle
-  SmallMatrix root_;     // S, upper triangular: S^T S = R R^T + damping
-  PivotedQr qr_;
+  RowQr qr_;
+  double root_[RowQr::kMaxRows][RowQr::kMaxRows];  // S, upper triangular: S^T S = R R^T + damping
   Svd svd_;
   SmallVector lifted_;  // singular values after the filter
   SmallVector length_;  // sqrt(lifted^2 + damping), the rows of K
