@@ -44,16 +44,20 @@ void recursion(const LimitedProblem& problem, JointVector& dq) {
       multiply(J, Z, reduced);
     }
     rows.factor(whole ? J : reduced, J.norm(), problem.regularization);
-    rows.solve(level.wanted - J * dq, z);
-    rows.null_space(V2);
+    SmallVector rest = level.wanted;
+    if (!whole) {
+      accumulate(-1.0, J, dq, rest);
+    }
+    rows.solve(rest, z);
     if (whole) {
       dq = z;
-      Z = V2;
     } else {
-      dq.noalias() += Z * z;
-      SmallMatrix below;
-      multiply(Z, V2, below);
-      Z = below;
+      accumulate(1.0, Z, z, dq);
+    }
+    if (i + 1 < problem.count || problem.wish != nullptr) {
+      rows.null_space(V2);
+      const SmallMatrix above = Z;
+      whole ? static_cast<void>(Z = V2) : multiply(above, V2, Z);
     }
     whole = false;
   }

@@ -45,7 +45,8 @@ bool solve_regular(const LevelProblem& level, JointVector& dq, SmallMatrix& next
   const bool whole = level.robust || level.first();
   const SmallMatrix reduced = level.first() ? SmallMatrix() : SmallMatrix(level.J * level.Z);
   MinimumNorm inverse;
-  if (!inverse.factor(whole ? level.J : reduced)) {
+  const double scale = level.J.norm();
+  if (!inverse.factor(whole ? level.J : reduced, scale)) {
     return false;
   }
   dq = inverse.solve(level.wanted);
@@ -54,7 +55,7 @@ bool solve_regular(const LevelProblem& level, JointVector& dq, SmallMatrix& next
     dq = lifted;
   }
   if (level.need_null_space) {
-    if (whole && !level.first() && !inverse.factor(reduced)) {
+    if (whole && !level.first() && !inverse.factor(reduced, scale)) {
       return false;
     }
     next_Z = inverse.null_space();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "thing_kin/linalg/interval_search.hpp"
 #include "thing_kin/linalg/small_product.hpp"
 
 namespace thing_kin {
@@ -18,63 +19,6 @@ constexpr double kLeastWarm = 1e-8;
 constexpr double kGradientRounding = 1e-12;
 constexpr double kResidualRounding = 1e-13;
 constexpr double kStationary = 1e-12;
-
-// Where the derivative of half the squared residuals along x + alpha d vanishes: piecewise linear
-// and rising, with a kink where a row enters or leaves its interval.
-class LineSearch {
- public:
-  LineSearch(const SmallVector& v, const SmallVector& s, const SmallVector& l, const SmallVector& u)
-      : v_(v), s_(s), l_(l), u_(u) {}
-
-  double best() const {
-    double left = 0.0;
-    double f_left = derivative(0.0);
-    if (!(f_left < 0.0)) {
-      return 1.0;  // at a minimum but for rounding
-    }
-    while (true) {
-      const double right = next_kink(left);
-      const double f_right = derivative(right);
-      if (f_right >= 0.0) {
-        return left + (right - left) * (f_left / (f_left - f_right));
-      }
-      if (right >= kFar) {
-        return 1.0;
-      }
-      left = right;
-      f_left = f_right;
-    }
-  }
-
- private:
-  double derivative(double alpha) const {
-    double sum = 0.0;
-    for (Eigen::Index i = 0; i < v_.size(); ++i) {
-      const double at = v_[i] + alpha * s_[i];
-      sum += s_[i] * (at - std::clamp(at, l_[i], u_[i]));
-    }
-    return sum;
-  }
-  double next_kink(double left) const {
-    double next = kFar;
-    for (Eigen::Index i = 0; i < v_.size(); ++i) {
-      for (const double bound : {l_[i], u_[i]}) {
-        const double kink = (bound - v_[i]) / s_[i];
-        if (kink > left && kink < next) {  // false for the NaN of 0/0
-          next = kink;
-        }
-      }
-    }
-    return next;
-  }
-
-  static constexpr double kFar = 1e6;  // Newton's step is 1
-
-  const SmallVector& v_;
-  const SmallVector& s_;
-  const SmallVector& l_;
-  const SmallVector& u_;
-};
 
 }  // namespace
 
@@ -150,7 +94,8 @@ void HierarchicalQp::warm_start() {
 }
 
 void HierarchicalQp::miss(const Level& level, Residual& residual) const {
-  const SmallVector at = level.K * x_;
+  SmallVector at = SmallVector::Zero(level.K.rows());
+  accumulate(1.0, level.K, x_, at);
   if (level.equalities) {
     residual.missed = at - level.lower;
     return;
@@ -207,14 +152,15 @@ bool HierarchicalQp::descend(const Level& level, const Residual& residual) {
   } else {
     least_squares(M, -residual.missed, level.scale, t);
   }
-  const JointVector d = working_.free_basis() * t;
+  JointVector d = JointVector::Zero(x_.size());
+  accumulate(1.0, working_.free_basis(), t, d);
   double alpha = 1.0;
   if (!level.equalities) {
     const double rounding = level.scale * x_.norm() + residual.missed.norm();
     if ((M * t).norm() <= kStationary * rounding) {
       return false;  // which way the kinks lie from here is rounding
     }
-    alpha = LineSearch(level.K * x_, level.K * d, level.lower, level.upper).best();
+    alpha = interval_search(level.K * x_, level.K * d, level.lower, level.upper);
   }
   const bool whole = std::abs(alpha - 1.0) < 1e-9;
   const int block = first_block(d, alpha);

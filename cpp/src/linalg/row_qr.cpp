@@ -41,9 +41,12 @@ void RowQr::factor(const SmallMatrix& A) noexcept {
   f_ = static_cast<int>(A.cols());
   with_length(f_, [&](auto length) {
     for (int j = 0; j < m_; ++j) {
-      std::fill(v_[j] + f_, v_[j] + length(), 0.0);
-      for (int i = 0; i < f_; ++i) {
-        v_[j][i] = A(j, i);
+      Padded<length()>(v_[j]).setZero();
+    }
+    const double* entry = A.data();
+    for (int i = 0; i < f_; ++i) {
+      for (int j = 0; j < m_; ++j) {
+        v_[j][i] = *entry++;
       }
     }
     reflect_rows<length()>();
@@ -56,8 +59,10 @@ template <int Length>
 void RowQr::reflect_rows() noexcept {
   for (int j = 0; j < m_; ++j) {
     double* v = v_[j];
-    std::copy_n(v, j, r_[j]);
-    std::fill(v, v + j, 0.0);
+    for (int i = 0; i < j; ++i) {
+      r_[j][i] = v[i];
+      v[i] = 0.0;
+    }
     const double norm = ConstPadded<Length>(v).norm();
     const double pivot = v[j];
     const double diagonal = -std::copysign(norm, pivot);
@@ -114,22 +119,30 @@ void RowQr::solve_r_transposed(double* y) const noexcept {
 void RowQr::lift(const double* y, double* x) const noexcept {
   with_length(f_, [&](auto length) {
     alignas(64) double padded[length()] = {};
-    std::copy_n(y, m_, padded);
+    for (int i = 0; i < m_; ++i) {
+      padded[i] = y[i];
+    }
     for (int j = m_ - 1; j >= 0; --j) {
       reflect<length()>(v_[j], beta_[j], padded);
     }
-    std::copy_n(padded, f_, x);
+    for (int i = 0; i < f_; ++i) {
+      x[i] = padded[i];
+    }
   });
 }
 
 void RowQr::apply_q_transposed(double* x) const noexcept {
   with_length(f_, [&](auto length) {
     alignas(64) double padded[length()] = {};
-    std::copy_n(x, f_, padded);
+    for (int i = 0; i < f_; ++i) {
+      padded[i] = x[i];
+    }
     for (int j = 0; j < m_; ++j) {
       reflect<length()>(v_[j], beta_[j], padded);
     }
-    std::copy_n(padded, f_, x);
+    for (int i = 0; i < f_; ++i) {
+      x[i] = padded[i];
+    }
   });
 }
 
@@ -143,7 +156,10 @@ void RowQr::columns_of_q(int first, int count, SmallMatrix& V) const noexcept {
       for (int j = std::min(first + column, m_ - 1); j >= 0; --j) {
         reflect<length()>(v_[j], beta_[j], padded);
       }
-      std::copy_n(padded, f_, &V(0, column));
+      double* const to = &V(0, column);
+      for (int i = 0; i < f_; ++i) {
+        to[i] = padded[i];
+      }
     }
   });
 }

@@ -4,10 +4,39 @@
 
 namespace thing_kin {
 
+namespace {
+
+bool has_one_entry(const SmallVector& v, Eigen::Index& where) {
+  Eigen::Index count = 0;
+  for (Eigen::Index i = 0; i < v.size(); ++i) {
+    if (v[i] != 0.0) {
+      where = i;
+      ++count;
+    }
+  }
+  return count == 1;
+}
+
+}  // namespace
+
 void WorkingSet::reset(const SmallMatrix& Z) noexcept {
   q_ = Z;
   r_.resize(Z.cols(), Z.cols());
   size_ = 0;
+}
+
+// N <- N (I - beta v v^T).
+void WorkingSet::reflect_columns(const SmallVector& v) noexcept {
+  const Eigen::Index rows = q_.rows();
+  const double beta = 2.0 / v.squaredNorm();
+  JointVector image = JointVector::Zero(rows);
+  for (Eigen::Index j = 0; j < v.size(); ++j) {
+    image += v[j] * q_.col(size_ + j);
+  }
+  image *= beta;
+  for (Eigen::Index j = 0; j < v.size(); ++j) {
+    q_.col(size_ + j) -= v[j] * image;
+  }
 }
 
 bool WorkingSet::add(Entry entry, const SmallVector& along, double least) noexcept {
@@ -20,12 +49,16 @@ bool WorkingSet::add(Entry entry, const SmallVector& along, double least) noexce
   if (!(norm > least)) {
     return false;
   }
-  const double diagonal = -std::copysign(norm, v[0]);
-  v[0] -= diagonal;
-  const double beta = 2.0 / v.squaredNorm();
-  auto N = q_.rightCols(free_columns);
-  const JointVector image = N * v;
-  N.noalias() -= (beta * image) * v.transpose();
+  double diagonal = 0.0;
+  Eigen::Index only = -1;
+  if (has_one_entry(v, only)) {  // a bound on a coordinate axis: as it is at the first level
+    diagonal = v[only];
+    q_.col(size_).swap(q_.col(size_ + only));
+  } else {
+    diagonal = -std::copysign(norm, v[0]);
+    v[0] -= diagonal;
+    reflect_columns(v);
+  }
   r_.col(size_).head(size_) = along.head(size_);
   r_(size_, size_) = diagonal;
   entries_[static_cast<std::size_t>(size_)] = entry;

@@ -26,4 +26,15 @@ void multiply(const Left& A, const Right& B, SmallMatrix& C) noexcept {
   }
 }
 
+/// y <- y + sign A x.
+template <typename Left>
+void accumulate(double sign, const Left& A, const SmallVector& x, SmallVector& y) noexcept {
+  for (Eigen::Index k = 0; k < A.cols(); ++k) {
+    const double factor = sign * x[k];
+    for (Eigen::Index i = 0; i < A.rows(); ++i) {
+      y[i] += A(i, k) * factor;
+    }
+  }
+}
+
 }  // namespace thing_kin

@@ -36,6 +36,8 @@ class WorkingSet {
   void multipliers(const SmallVector& gradient_along, SmallVector& mu) const noexcept;
 
  private:
+  void reflect_columns(const SmallVector& v) noexcept;
+
   SmallMatrix q_;
   SmallMatrix r_;  // Y^T [c_1 ... c_size], upper triangular
   int size_ = 0;
