@@ -41,3 +41,14 @@ def test_regularized_step(benchmark: BenchmarkFixture, scheme: str, inverse: Any
     step = benchmark(lambda: solver.step(*next(turns)))
     assert step.shape == (9,)
     assert 0.0 < np.abs(step).max() < 10.0  # goals two centimeters away, the filter's floor 0.01
+
+
+@pytest.mark.benchmark(group="step, limited")
+@pytest.mark.parametrize("dt", [0.002, 0.02, 0.2])
+def test_limited_step(benchmark: BenchmarkFixture, dt: float) -> None:
+    """Hand, base and posture: nearly always, sometimes and hardly ever at a velocity limit."""
+    tasks = [tk.PoseTask(), tk.BaseTask(), tk.PostureTask()]
+    solver = tk.TaskPriority(PROBLEM.robot, tasks, limits=True, dt=dt)
+    turns = cycle([(q, (T_goal, base, q)) for q, T_goal, base in PROBLEM.inputs["step"]])
+    step = benchmark(lambda: solver.step(*next(turns)))
+    assert (np.abs(step) <= PROBLEM.robot.velocity_limits * dt).all()

@@ -1,5 +1,6 @@
 #include "array.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "thing_kin/core/error.hpp"
@@ -113,6 +114,56 @@ Batch read(py::handle argument, const char* name, const std::vector<py::ssize_t>
     check_finite(batch, name);
   }
   return batch;
+}
+
+namespace {
+
+bool copy_floats(py::handle argument, py::ssize_t count, double* out) noexcept {
+  const bool tuple = PyTuple_CheckExact(argument.ptr());
+  if (!(tuple || PyList_CheckExact(argument.ptr())) || Py_SIZE(argument.ptr()) != count) {
+    return false;
+  }
+  for (py::ssize_t i = 0; i < count; ++i) {
+    PyObject* const number =
+        tuple ? PyTuple_GET_ITEM(argument.ptr(), i) : PyList_GET_ITEM(argument.ptr(), i);
+    if (!PyFloat_CheckExact(number)) {
+      return false;
+    }
+    out[i] = PyFloat_AS_DOUBLE(number);
+  }
+  return true;
+}
+
+// A C-ordered float64 array in its own memory; nullptr if it is none of this shape.
+const double* plain_data(py::handle argument, std::initializer_list<py::ssize_t> shape) {
+  const auto& api = py::detail::npy_api::get();
+  static PyObject* const float64 = py::dtype::of<double>().release().ptr();
+  if (!api.PyArray_Check_(argument.ptr())) {
+    return nullptr;
+  }
+  const auto* array = py::detail::array_proxy(argument.ptr());
+  constexpr int kReadable =
+      py::detail::npy_api::NPY_ARRAY_C_CONTIGUOUS_ | py::detail::npy_api::NPY_ARRAY_ALIGNED_;
+  const bool plain = array->descr == float64 && (array->flags & kReadable) == kReadable &&
+                     array->nd == static_cast<int>(shape.size()) &&
+                     std::equal(shape.begin(), shape.end(), array->dimensions);
+  return plain ? reinterpret_cast<const double*>(array->data) : nullptr;
+}
+
+}  // namespace
+
+bool read_plain(py::handle argument, std::initializer_list<py::ssize_t> shape,
+                double* out) noexcept {
+  py::ssize_t count = 1;
+  for (const py::ssize_t length : shape) {
+    count *= length;
+  }
+  if (const double* data = plain_data(argument, shape)) {
+    std::copy_n(data, count, out);
+  } else if (shape.size() != 1 || !copy_floats(argument, count, out)) {
+    return false;
+  }
+  return all_finite(out, static_cast<std::size_t>(count));
 }
 
 SmallVector read_number_or_vector(py::handle argument, const char* name, py::ssize_t n,

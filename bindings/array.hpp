@@ -63,6 +63,12 @@ py::object as_matrix(py::handle argument);
 Batch read(py::handle argument, const char* name, const std::vector<py::ssize_t>& item,
            bool batches = true, Finite finite = Finite::kYes);
 
+/// The quick way for a control loop: copies a C-ordered float64 array of exactly this shape, or a
+/// list or tuple of floats for a vector. False, and `out` is anything, if it is something else or
+/// not finite: then read() knows what to do or to say.
+bool read_plain(py::handle argument, std::initializer_list<py::ssize_t> shape,
+                double* out) noexcept;
+
 /// n numbers, or one that stands for all.
 SmallVector read_number_or_vector(py::handle argument, const char* name, py::ssize_t n,
                                   Finite finite);

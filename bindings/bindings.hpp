@@ -42,6 +42,9 @@ void bind_task_vector(ChainClass& chain);
 
 void bind_differential_inverse(py::module_& m);
 void bind_task(py::module_& m);
+void bind_set_task(py::module_& m);
+void bind_limits(py::module_& m);
+void bind_limited_step(py::module_& m);
 void bind_task_priority(py::module_& m);
 void bind_closed_form_ik(py::module_& m);
 void bind_ik_result(py::module_& m);

@@ -42,6 +42,9 @@ PYBIND11_MODULE(_core, m) {
 
   bind_differential_inverse(m);
   bind_task(m);
+  bind_set_task(m);
+  bind_limits(m);
+  bind_limited_step(m);
   bind_task_priority(m);
   bind_closed_form_ik(m);
   bind_ik_result(m);

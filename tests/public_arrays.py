@@ -29,6 +29,19 @@ SOLVER = tk.TaskPriority(
     ],
 )
 TARGETS = [T, Q[6:], T[:3, 3], T[:3, :3], Q]
+WITHIN = tk.TaskPriority(
+    ROBOT,
+    [
+        tk.BaseObstacleTask(0.5),
+        tk.DistanceTask(0.1, 2.0),
+        tk.FieldOfViewTask(0.5),
+        tk.JointRangeTask(np.full(9, -2.0), np.full(9, 2.0)),
+        tk.PoseTask(),
+    ],
+    limits=True,
+    dt=0.01,
+)
+WITHIN_TARGETS = [Q[6:8], T[:3, 3], T[:3, 3], None, T]
 
 
 @dataclass(frozen=True)
@@ -54,6 +67,19 @@ def with_target(i: int) -> Callable[[Any], Any]:
         return SOLVER.step(Q, [value if k == i else target for k, target in enumerate(TARGETS)])
 
     return call
+
+
+def within_target(i: int) -> Callable[[Any], Any]:
+    def call(value: Any) -> Any:
+        goals = [value if k == i else goal for k, goal in enumerate(WITHIN_TARGETS)]
+        return WITHIN.step(Q, goals)
+
+    return call
+
+
+def ranged(name: str) -> Callable[[Any], Any]:
+    bounds = {"lower": np.full(9, -np.inf), "upper": np.full(9, np.inf)}
+    return lambda value: getattr(tk.JointRangeTask(**{**bounds, name: value}), name)
 
 
 def limited(name: str) -> Callable[[Any], Any]:
@@ -156,6 +182,27 @@ TASK_PRIORITY = [
         infinite=True,
     ),
 ]
+LIMITS = [
+    Argument("limited step", "q", Q, lambda v: WITHIN.step(v, WITHIN_TARGETS), moderate=True),
+    Argument("limited solve", "q", Q, lambda v: WITHIN.solve(v, WITHIN_TARGETS).dq, moderate=True),
+    Argument("limited step", "null_motion", Q, lambda v: WITHIN.step(Q, WITHIN_TARGETS, v)),
+    Argument(
+        "limited step",
+        "previous",
+        0.001 * Q,
+        lambda v: WITHIN.step(Q, WITHIN_TARGETS, previous=v),
+    ),
+    *(
+        Argument("limited step", f"targets[{i}]", good, within_target(i), moderate=True)
+        for i, good in enumerate(WITHIN_TARGETS)
+        if good is not None
+    ),
+    *(
+        Argument("JointRangeTask", name, Q, ranged(name), infinite=True)
+        for name in ("lower", "upper")
+    ),
+    Argument("FieldOfViewTask", "axis", XI[:3], lambda v: tk.FieldOfViewTask(0.3, v).axis),
+]
 
 
 def ik_with(name: str, **others: Any) -> Callable[[Any], Any]:
@@ -216,12 +263,23 @@ ARGUMENTS = [
     *LINALG,
     *MODEL,
     *TASK_PRIORITY,
+    *LIMITS,
     *CLOSED_FORM,
     *IK,
 ]
 
 # None means "not given" to these.
-OPTIONAL = {"damping", "mount", "rpy", "null_motion", "lower", "upper", "step_limit"} | {
+OPTIONAL = {
+    "damping",
+    "mount",
+    "rpy",
+    "null_motion",
+    "previous",
+    "axis",
+    "lower",
+    "upper",
+    "step_limit",
+} | {
     "velocity_limits",
     "acceleration_limits",
     "quaternion",

@@ -105,3 +105,20 @@ def test_the_recursions_grow_without_bound_there(scheme: str, joint: str) -> Non
     # Ten times nearer is ten times longer, up to 1e10 rad.
     np.testing.assert_allclose(np.divide(lengths[1:], lengths[:-1]), 10.0, rtol=0.05)
     assert lengths[-1] > 1e8
+
+
+@pytest.mark.parametrize("inverse", INVERSES)
+@pytest.mark.parametrize("scheme", SCHEMES)
+def test_a_task_said_twice_changes_nothing(scheme: str, inverse: str) -> None:
+    """What the first leaves of the second is rounding, and no matrix to be inverted."""
+    options = {"scheme": scheme, "inverse": INVERSES[inverse]}
+    again = (tk.PoseTask(gain=0.8), tk.PoseTask(gain=0.8))
+    part = (tk.PoseTask(gain=0.8), tk.PositionTask())
+    for q in RANDOM_POSTURES:
+        (T,) = targets(TWO_TASKS[:1], q)
+        once = tk.TaskPriority(ROBOT, again[:1], **options).step(q, [T])
+        for tasks, goals in ((again, [T, T]), (part, [T, T[:3, 3] + 0.1])):
+            step = tk.TaskPriority(ROBOT, tasks, **options).solve(q, goals, np.ones(9))
+            np.testing.assert_allclose(step.contributions[:2].sum(axis=0), once, atol=1e-9)
+            free = tk.null_space(jacobian_of(again[0], q))
+            np.testing.assert_allclose(step.contributions[2], free @ free.T @ np.ones(9), atol=1e-9)

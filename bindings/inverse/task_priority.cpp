@@ -11,6 +11,26 @@
 
 namespace thing_kin::python {
 
+/// What solve() returns.
+class AnyStep : public py::object {
+ public:
+  PYBIND11_OBJECT_DEFAULT(AnyStep, object, [](PyObject*) { return 1; })
+};
+
+}  // namespace thing_kin::python
+
+namespace pybind11::detail {
+
+template <>
+struct handle_type_name<thing_kin::python::AnyStep> {
+  static constexpr auto name =
+      const_name("thing_kin._core.TaskPriorityStep | thing_kin._core.LimitedStep");
+};
+
+}  // namespace pybind11::detail
+
+namespace thing_kin::python {
+
 namespace {
 
 std::optional<JointVector> read_step_limit(const py::object& limit, int n) {
@@ -20,52 +40,93 @@ std::optional<JointVector> read_step_limit(const py::object& limit, int n) {
   return read_number_or_vector(limit, "step_limit", n, Finite::kNo);
 }
 
-// One target, checked, and kept alive by its Batch.
-Batch read_target(const Task& task, const Chain& chain, py::handle target, std::size_t i) {
-  const auto [rows, cols] = task.target_shape(chain);
+// What is quick to read is read at once; the rest has the general way, which names what is wrong.
+void read_vector(py::handle argument, const char* name, py::ssize_t n, JointVector& out) {
+  out.resize(n);
+  if (!read_plain(argument, {n}, out.data())) {
+    out = vector_at(read(argument, name, {n}, false), 0);
+  }
+}
+
+bool rigid(const double* rows, int n) {
+  Eigen::Matrix4d T = Eigen::Matrix4d::Identity();
+  for (int row = 0; row < n; ++row) {
+    for (int col = 0; col < n; ++col) {
+      T(row, col) = rows[n * row + col];
+    }
+  }
+  return is_rigid(T);
+}
+
+void read_other_target(std::array<int, 2> shape, py::handle target, std::size_t i, double* out) {
+  const auto [rows, cols] = shape;
   const std::string name = "targets[" + std::to_string(i) + "]";
+  if (rows == 0) {
+    throw InvalidArgument(name, py::str(py::type::of(target).attr("__name__")), "None");
+  }
+  Batch batch;
   if (cols == 0) {
-    return read(target, name.c_str(), {rows}, false);
-  }
-  Batch batch = read(target, name.c_str(), {rows, cols}, false);
-  if (rows == 4) {
-    read_pose(batch.data, name.c_str());
+    batch = read(target, name.c_str(), {rows}, false);
   } else {
-    read_rotation(batch.data, name.c_str());
+    batch = read(target, name.c_str(), {rows, cols}, false);
+    rows == 4 ? static_cast<void>(read_pose(batch.data, name.c_str()))
+              : static_cast<void>(read_rotation(batch.data, name.c_str()));
   }
-  return batch;
+  std::copy_n(batch.data, batch.size, out);
+}
+
+void read_target(std::array<int, 2> shape, py::handle target, std::size_t i, double* out) {
+  const auto [rows, cols] = shape;
+  const bool done = rows == 0   ? target.is_none()
+                    : cols == 0 ? read_plain(target, {rows}, out)
+                                : read_plain(target, {rows, cols}, out) && rigid(out, rows);
+  if (!done) {
+    read_other_target(shape, target, i, out);
+  }
 }
 
 // What one step needs, copied, so that another thread that writes the arrays can't disturb it.
 struct Inputs {
   Inputs(const TaskPriority& solver, const ArrayLike& q_argument, const py::sequence& targets,
-         const py::object& null_motion)
+         const py::object& null_motion, const py::object& previous_step)
       : count(solver.tasks().size()) {
     const int n = solver.chain().dof();
-    q = vector_at(read(q_argument, "q", {n}, false), 0);
-    if (targets.size() != count) {
-      throw InvalidArgument("targets", std::to_string(targets.size()),
+    read_vector(q_argument, "q", n, q);
+    const std::size_t given = targets.size();
+    if (given != count) {
+      throw InvalidArgument("targets", std::to_string(given),
                             std::to_string(count) + ", one a task");
     }
     for (std::size_t i = 0; i < count; ++i) {
-      const Batch target =
-          read_target(*solver.tasks()[i], solver.chain(), py::object(targets[i]), i);
-      std::copy_n(target.data, target.size, values[i].begin());
+      const auto target = py::reinterpret_steal<py::object>(
+          PySequence_GetItem(targets.ptr(), static_cast<py::ssize_t>(i)));
+      if (!target) {
+        throw py::error_already_set();
+      }
+      read_target(solver.tasks()[i]->target_shape(solver.chain()), target, i, values[i].data());
       pointers[i] = values[i].data();
     }
     if (!null_motion.is_none()) {
-      z = vector_at(read(null_motion, "null_motion", {n}, false), 0);
+      read_vector(null_motion, "null_motion", n, z);
+    }
+    if (!previous_step.is_none()) {
+      if (!solver.options().limits) {
+        throw InvalidArgument("previous", "a step without limits", "None, or limits=True");
+      }
+      read_vector(previous_step, "previous", n, previous);
     }
   }
 
   std::span<const double* const> goals() const { return {pointers.data(), count}; }
   const double* free_motion() const { return z.size() > 0 ? z.data() : nullptr; }
+  const double* step_before() const { return previous.size() > 0 ? previous.data() : nullptr; }
 
   std::size_t count;
   JointVector q;
   JointVector z;
+  JointVector previous;
   std::array<std::array<double, kMaxDof>, kMaxTasks> values;
-  std::array<const double*, kMaxTasks> pointers{};
+  std::array<const double*, kMaxTasks> pointers;
 };
 
 // A step with its diagnosis, as Python sees it.
@@ -73,7 +134,12 @@ struct ExplainedStep : TaskPriorityStep {
   std::array<SmallVector, kMaxTasks + 1> sigma;  // empty for the null-space motion
 };
 
-Array to_array(const JointVector& v) { return Array(v.size(), v.data()); }
+Array to_array(const JointVector& v) {
+  const py::ssize_t n = v.size();
+  Array array = make_array(&n, 1);
+  std::copy_n(v.data(), n, array.mutable_data());
+  return array;
+}
 
 Array contributions(const ExplainedStep& step) {
   const py::ssize_t n = step.dq.size();
@@ -93,6 +159,66 @@ Array scales(const ExplainedStep& step) {
     out.mutable_data()[i] = step.levels[static_cast<std::size_t>(i)].scale;
   }
   return out;
+}
+
+JointVector dq_of(const TaskPriority& solver, const Inputs& inputs) {
+  const py::gil_scoped_release release;
+  if (solver.options().limits) {
+    JointVector dq;
+    solver.step_limited(inputs.q.data(), inputs.goals(), inputs.free_motion(), inputs.step_before(),
+                        dq);
+    return dq;
+  }
+  TaskPriorityStep step;
+  solver.solve(inputs.q.data(), inputs.goals(), inputs.free_motion(), step);
+  return step.dq;
+}
+
+std::unique_ptr<ExplainedStep> step_of(const TaskPriority& solver, const Inputs& inputs) {
+  auto step = std::make_unique<ExplainedStep>();
+  const py::gil_scoped_release release;
+  solver.solve(inputs.q.data(), inputs.goals(), inputs.free_motion(), *step);
+  solver.singular_values(inputs.q.data(), inputs.goals(), step->sigma);
+  return step;
+}
+
+std::unique_ptr<LimitedStep> limited_step_of(const TaskPriority& solver, const Inputs& inputs) {
+  auto step = std::make_unique<LimitedStep>();
+  const py::gil_scoped_release release;
+  solver.solve_limited(inputs.q.data(), inputs.goals(), inputs.free_motion(), inputs.step_before(),
+                       *step);
+  return step;
+}
+
+std::optional<LimitOptions> read_limit_options(bool limits, const std::optional<double>& dt,
+                                               const std::optional<WheelLimits>& wheels) {
+  if (!limits) {
+    if (dt) {
+      throw InvalidArgument("dt", text(*dt).append(" without limits"), "limits=True, or None");
+    }
+    if (wheels) {
+      throw InvalidArgument("wheel_limits", "WheelLimits without limits", "limits=True, or None");
+    }
+    return std::nullopt;
+  }
+  if (!dt) {
+    throw InvalidArgument("dt", "None with limits", "the duration of a step, s");
+  }
+  return LimitOptions(*dt, wheels);
+}
+
+TaskPriorityOptions read_options(const std::optional<std::string>& scheme,
+                                 const std::optional<DifferentialInverse>& inverse,
+                                 const std::optional<LimitOptions>& limits) {
+  TaskPriorityOptions options =
+      limits ? TaskPriorityOptions::limited(*limits) : TaskPriorityOptions();
+  if (scheme) {
+    options.scheme = scheme_from_string(*scheme);
+  }
+  if (inverse) {
+    options.inverse = *inverse;
+  }
+  return options;
 }
 
 void bind_step(py::module_& m) {
@@ -160,7 +286,12 @@ The first task is met as well as it can be; each further one moves only in what 
 leave free, so that it never disturbs them, also when the inverse is damped or filtered. With tasks
 [PoseTask(), BaseTask()] and scheme 'chiaverini' this is the motion scheme (4.18).
 
-A solver is immutable: any number of threads may share it. Joint limits are not enforced.
+With limits=True each step is a bounded least-squares problem in strict order: it keeps the robot's
+position, velocity and acceleration limits, the wheels' speeds and the intervals of set-based tasks,
+and each task is met as well as these and the tasks before it allow. Without, limits are not looked
+at.
+
+A solver is immutable: any number of threads may share it.
 
 Parameters
 ----------
@@ -169,20 +300,27 @@ tasks : sequence of Task
     Highest priority first, at most 16 (two for 'nakamura').
 scheme : str
     'nakamura': (4.16). 'siciliano': the same recursion for any number of tasks; exact, but unbounded
-    where a lower task conflicts with a higher one. 'chiaverini' (default): (4.17); stays bounded
-    there, and converges more slowly.
+    where a lower task conflicts with a higher one. 'chiaverini': (4.17); stays bounded there, and
+    converges more slowly. Default 'chiaverini', with limits 'siciliano', which is least squares.
 inverse : Exact, Damped or SelectivelyDamped
-    Default SelectivelyDamped(pi/4).
+    Default SelectivelyDamped(pi/4), with limits Damped(1e-4); SelectivelyDamped is none for limits.
 singular_value_filter : SingularValueFilter, optional
     Applied to each inverted matrix first.
 step_limit : float or (n,), optional
     Largest |dq| of each joint, rad or m. Scales each task's contribution, lowest priority first, and
-    never the sum: the direction in which a higher task moves does not change.
+    never the sum: the direction in which a higher task moves does not change. With limits one more
+    bound of the least squares, which may change that direction to come nearer.
+limits : bool
+    Default False.
+dt : float, s
+    Duration of a step, with limits: a joint moves by at most velocity limit * dt.
+wheel_limits : WheelLimits, optional
+    With limits, for a mecanum base.
 
 Raises
 ------
 ValueError
-    If a task, frame, scheme or limit does not fit the robot.
+    If a task, frame, scheme or limit does not fit the robot, or an option the others.
 
 Examples
 --------
@@ -197,39 +335,42 @@ Examples
 True
 )")
       .def(py::init([](const Chain& robot, const std::vector<std::shared_ptr<Task>>& tasks,
-                       const std::string& scheme, const DifferentialInverse& inverse,
+                       const std::optional<std::string>& scheme,
+                       const std::optional<DifferentialInverse>& inverse,
                        const std::optional<SingularValueFilter>& filter,
-                       const py::object& step_limit) {
+                       const py::object& step_limit, bool limits, const std::optional<double>& dt,
+                       const std::optional<WheelLimits>& wheel_limits) {
              for (const auto& task : tasks) {
                if (task == nullptr) {
                  throw InvalidArgument("tasks", "None", "tasks");
                }
              }
-             return TaskPriority(robot, {tasks.begin(), tasks.end()},
-                                 {scheme_from_string(scheme), inverse, filter,
-                                  read_step_limit(step_limit, robot.dof())});
+             TaskPriorityOptions options =
+                 read_options(scheme, inverse, read_limit_options(limits, dt, wheel_limits));
+             options.filter = filter;
+             options.step_limit = read_step_limit(step_limit, robot.dof());
+             return TaskPriority(robot, {tasks.begin(), tasks.end()}, std::move(options));
            }),
-           py::arg("robot"), py::arg("tasks"), py::kw_only(),
-           py::arg("scheme") = to_string(TaskPriorityOptions().scheme),
-           py::arg("inverse") = DifferentialInverse(SelectivelyDamped()),
-           py::arg("singular_value_filter") = py::none(), py::arg("step_limit") = py::none())
+           py::arg("robot"), py::arg("tasks"), py::kw_only(), py::arg("scheme") = py::none(),
+           py::arg("inverse") = py::none(), py::arg("singular_value_filter") = py::none(),
+           py::arg("step_limit") = py::none(), py::arg("limits") = false,
+           py::arg("dt") = py::none(), py::arg("wheel_limits") = py::none())
       .def_property_readonly("robot", &TaskPriority::chain, "The chain.")
       .def_property_readonly(
           "scheme", [](const TaskPriority& s) { return to_string(s.options().scheme); },
           "'nakamura', 'siciliano' or 'chiaverini'.")
+      .def_property_readonly(
+          "limits", [](const TaskPriority& s) { return s.options().limits.has_value(); },
+          "Whether steps are bounded.")
       .def(
           "step",
           [](const TaskPriority& solver, const ArrayLike& q, const py::sequence& targets,
-             const py::object& null_motion) {
-            const Inputs inputs(solver, q, targets, null_motion);
-            TaskPriorityStep step;
-            {
-              const py::gil_scoped_release release;
-              solver.solve(inputs.q.data(), inputs.goals(), inputs.free_motion(), step);
-            }
-            return to_array(step.dq);
+             const py::object& null_motion, const py::object& previous) {
+            const Inputs inputs(solver, q, targets, null_motion, previous);
+            return to_array(dq_of(solver, inputs));
           },
           py::arg("q"), py::arg("targets"), py::arg("null_motion") = py::none(),
+          py::arg("previous") = py::none(),
           R"(One step dq towards the targets; q + dq is the next configuration.
 
 Allocates no memory in the core and releases the GIL.
@@ -239,9 +380,12 @@ Parameters
 q : (n,), rad and m
 targets : sequence
     One a task: (4, 4) for a pose, (3, 3) for an orientation, (3,) for a position or a base pose,
-    (n,) for a posture.
+    (n,) for a posture; None where a task has no target.
 null_motion : (n,), optional
     The z of (4.16), (4.17): motion wanted where all tasks leave the robot free.
+previous : (n,), optional
+    With limits, the step before this one: the acceleration, (dq - previous)/dt^2, is limited too, and
+    speeds to what can still be stopped before a position limit. Default: the acceleration is free.
 
 Returns
 -------
@@ -264,25 +408,25 @@ array([0., 0., 0., 0., 0., 0., 0., 0., 0.])
       .def(
           "solve",
           [](const TaskPriority& solver, const ArrayLike& q, const py::sequence& targets,
-             const py::object& null_motion) {
-            const Inputs inputs(solver, q, targets, null_motion);
-            auto step = std::make_unique<ExplainedStep>();
-            const py::gil_scoped_release release;
-            solver.solve(inputs.q.data(), inputs.goals(), inputs.free_motion(), *step);
-            solver.singular_values(inputs.q.data(), inputs.goals(), step->sigma);
-            return step;
+             const py::object& null_motion, const py::object& previous) -> AnyStep {
+            const Inputs inputs(solver, q, targets, null_motion, previous);
+            py::object step = solver.options().limits ? py::cast(limited_step_of(solver, inputs))
+                                                      : py::cast(step_of(solver, inputs));
+            return py::reinterpret_steal<AnyStep>(step.release());
           },
           py::arg("q"), py::arg("targets"), py::arg("null_motion") = py::none(),
+          py::arg("previous") = py::none(),
           R"(As step, with what each task contributed.
 
 Parameters
 ----------
-q, targets, null_motion
+q, targets, null_motion, previous
     As for step.
 
 Returns
 -------
 TaskPriorityStep
+    With limits a LimitedStep.
 
 Examples
 --------

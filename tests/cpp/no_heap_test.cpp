@@ -243,5 +243,42 @@ TEST(NoHeap, NumericIk) {
   }
 }
 
+TEST(NoHeap, TaskPriorityWithinLimits) {
+  const Chain robot = robots::thing();
+  test::Generator rng(7);
+  const Eigen::VectorXd q = test::random_vector(rng, 9, 0.9);
+  const Eigen::VectorXd goal = test::random_vector(rng, 9);
+  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> T =
+      forward_kinematics(robot, goal.data(), robot.tool()).matrix();
+  const Eigen::Vector3d point(0.1, 0.2, 0.3);
+  const std::array<const double*, 6> targets = {point.data(), T.data(),     point.data(),
+                                                point.data(), point.data(), nullptr};
+  const Eigen::VectorXd z = test::random_vector(rng, 9);
+  auto step = std::make_unique<LimitedStep>();
+  const JointVector one = JointVector::Ones(9);
+  const JointVector previous = 1e-3 * one;
+  for (const std::optional<SingularValueFilter>& filter :
+       {std::optional<SingularValueFilter>(), std::optional(SingularValueFilter(0.01, 10.0))}) {
+    TaskPriorityOptions options =
+        TaskPriorityOptions::limited(LimitOptions(0.01, WheelLimits(0.1, 0.5, 5.0)));
+    options.filter = filter;
+    options.step_limit = 0.1 * one;
+    const TaskPriority solver(
+        robot,
+        {std::make_shared<BaseObstacleTask>(0.5), std::make_shared<PoseTask>(),
+         std::make_shared<FieldOfViewTask>(0.3), std::make_shared<DistanceTask>(0.1, 0.2),
+         std::make_shared<BaseTask>(), std::make_shared<JointRangeTask>(-one, one)},
+        options);
+    JointVector dq;
+    EXPECT_EQ(allocations_in([&] {
+                solver.solve_limited(q.data(), targets, z.data(), previous.data(), *step);
+                solver.step_limited(q.data(), targets, nullptr, nullptr, dq);
+              }),
+              0);
+    EXPECT_GT(step->iterations, 0);
+    EXPECT_TRUE(dq.allFinite());
+  }
+}
+
 }  // namespace
 }  // namespace thing_kin

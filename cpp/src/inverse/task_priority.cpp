@@ -45,7 +45,8 @@ bool solve_regular(const LevelProblem& level, JointVector& dq, SmallMatrix& next
   const bool whole = level.robust || level.first();
   const SmallMatrix reduced = level.first() ? SmallMatrix() : SmallMatrix(level.J * level.Z);
   MinimumNorm inverse;
-  if (!inverse.factor(whole ? level.J : reduced)) {
+  const double scale = level.J.norm();
+  if (!inverse.factor(whole ? level.J : reduced, scale)) {
     return false;
   }
   dq = inverse.solve(level.wanted);
@@ -54,7 +55,7 @@ bool solve_regular(const LevelProblem& level, JointVector& dq, SmallMatrix& next
     dq = lifted;
   }
   if (level.need_null_space) {
-    if (whole && !level.first() && !inverse.factor(reduced)) {
+    if (whole && !level.first() && !inverse.factor(reduced, scale)) {
       return false;
     }
     next_Z = inverse.null_space();
@@ -114,6 +115,12 @@ TaskPriority::TaskPriority(Chain chain, std::vector<std::shared_ptr<const Task>>
       throw InvalidArgument("tasks", std::string(task->kind()) + " for " + quoted(chain_.name()),
                             "a robot on an omnidirectional base (on_omni_base)");
     }
+    if (task->joints() != 0 && task->joints() != chain_.dof()) {
+      throw InvalidArgument("tasks",
+                            std::string(task->kind()) + " of " + std::to_string(task->joints()),
+                            std::to_string(chain_.dof()) + " joints");
+    }
+    sets_.push_back(dynamic_cast<const SetTask*>(task.get()));
     frames_.push_back(task->frame().empty() ? chain_.tool()
                                             : chain_.frame_index(task->frame(), "of"));
   }
@@ -124,6 +131,7 @@ TaskPriority::TaskPriority(Chain chain, std::vector<std::shared_ptr<const Task>>
                             std::to_string(chain_.dof()) + " positive numbers (inf: no limit)");
     }
   }
+  check_limits();
 }
 
 // Z: orthonormal basis of the null space of all levels above. next_Z: with this level too.

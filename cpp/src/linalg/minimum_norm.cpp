@@ -11,22 +11,25 @@ namespace {
 // such a ratio no singular value counts as zero.
 constexpr Eigen::Index kMaxRows = 8;
 constexpr double kClearlyRegular = 1e-6;
+// What a projection leaves of a matrix is its rounding below this part of it.
+constexpr double kNoise = 1e-9;
 
 }  // namespace
 
-bool MinimumNorm::factor(const SmallMatrix& A) noexcept {
+bool MinimumNorm::factor(const SmallMatrix& A, double scale) noexcept {
   const Eigen::Index m = A.rows();
   if (m == 0 || m > A.cols() || m > kMaxRows) {
     return false;
   }
   const double largest = A.cwiseAbs().maxCoeff();
-  if (largest == 0.0) {
+  if (largest <= kNoise * scale) {
     return false;
   }
   unit_ = std::ldexp(1.0, std::ilogb(largest));  // a power of two: scaling is exact
   factors_ = A.transpose() / unit_;
   qr_.factor(factors_);
-  return std::abs(factors_(m - 1, m - 1)) > kClearlyRegular * std::abs(factors_(0, 0));
+  const double least = std::abs(factors_(m - 1, m - 1));
+  return least > kClearlyRegular * std::abs(factors_(0, 0)) && least * unit_ > kNoise * scale;
 }
 
 void MinimumNorm::solve(const double* e, double* x) const noexcept {

@@ -31,6 +31,9 @@ class Task {
 
   virtual bool needs_base() const noexcept { return false; }
 
+  /// How many joints the chain must have; 0: any number.
+  virtual int joints() const noexcept { return 0; }
+
   virtual RowBlocks blocks(const Chain& chain) const noexcept {
     return RowBlocks::whole(rows(chain));
   }

@@ -9,7 +9,8 @@ namespace thing_kin {
 class MinimumNorm {
  public:
   /// False if A is not wide, has many rows or may lack rank: then only the singular values tell.
-  bool factor(const SmallMatrix& A) noexcept;
+  /// `scale`: how large the entries were that A was computed from, see decompose().
+  bool factor(const SmallMatrix& A, double scale = 0.0) noexcept;
 
   /// A^+ e, (n).
   JointVector solve(const SmallVector& e) const noexcept;
