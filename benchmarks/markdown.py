@@ -29,6 +29,7 @@ CPP_TITLES = {
     "velocity": "the Jacobian's inverse times a twist",
     "step": "task priority (4.18), exact",
     "step_regularized": "the same, filtered and selectively damped",
+    "ik_all_ur10": "all eight solutions of a UR10 in closed form",
 }
 NONE = "\N{EN DASH}"
 LEVELS = ("avx512", "avx2", "baseline")

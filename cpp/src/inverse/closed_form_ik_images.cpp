@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "closed_form_ik_polish.hpp"
+#include "closed_form_ik_turns.hpp"
 #include "thing_kin/core/error.hpp"
 #include "thing_kin/inverse/closed_form_ik.hpp"
 #include "thing_kin/kinematics/batch.hpp"
@@ -11,7 +11,7 @@ namespace thing_kin {
 
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
+using closed_form::kTurn;
 
 /// From `lowest` to `highest` turns away.
 struct Range {
