@@ -30,6 +30,7 @@ CPP_TITLES = {
     "step": "task priority (4.18), exact",
     "step_regularized": "the same, filtered and selectively damped",
     "step_limited": "hand, base and posture within limits",
+    "ik_all_ur10": "all eight solutions of a UR10 in closed form",
 }
 NONE = "\N{EN DASH}"
 LEVELS = ("avx512", "avx2", "baseline")

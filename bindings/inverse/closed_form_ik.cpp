@@ -120,6 +120,12 @@ ClosedFormIk find(const Chain& chain, int frame) {
   return *ik;
 }
 
+// One (n) vector, by the hot path.
+Batch read_vector(const py::object& argument, const char* name, int n) {
+  Batch vector = read_vectors(argument, name, n);
+  return vector.single ? vector : read(argument, name, {n}, false);
+}
+
 // x, y and theta, or nothing for an arm alone.
 Batch read_base(const Chain& chain, const py::object& base, bool respect_limits) {
   if (!chain.base_joints()) {
@@ -131,7 +137,7 @@ Batch read_base(const Chain& chain, const py::object& base, bool respect_limits)
   if (base.is_none()) {
     throw InvalidArgument("base", "None", "(x, y, theta): the chain stands on a base");
   }
-  Batch pose = read(base, "base", {3}, false);
+  Batch pose = read_vector(base, "base", 3);
   check_magnitude(pose, "base");
   for (std::size_t i = 0; respect_limits && i < 3; ++i) {
     const int joint = (*chain.base_joints())[i];
@@ -147,7 +153,7 @@ Batch read_base(const Chain& chain, const py::object& base, bool respect_limits)
 }
 
 Batch read_weights(const py::object& weights, int n) {
-  Batch read_in = read(weights, "weights", {n}, false);
+  Batch read_in = read_vector(weights, "weights", n);
   for (int i = 0; i < n; ++i) {
     if (!(read_in.data[i] >= 0.0)) {
       throw InvalidArgument("weights", text(read_in.data[i]), "numbers of at least 0");
@@ -170,7 +176,7 @@ std::unique_ptr<IkSolutions> ik_all(const Chain& chain, const ArrayLike& target,
   options.respect_limits = respect_limits;
   Batch near, by;
   if (!seed.is_none()) {
-    near = read(seed, "seed", {chain.dof()}, false);
+    near = read_vector(seed, "seed", chain.dof());
     check_magnitude(near, "seed");
     options.seed = near.data;
   }

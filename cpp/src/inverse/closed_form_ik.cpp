@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <limits>
 
 #include "closed_form_ik_polish.hpp"
 #include "closed_form_ik_subproblems.hpp"
+#include "closed_form_ik_turns.hpp"
 #include "thing_kin/kinematics/arc_tangent.hpp"
 #include "thing_kin/kinematics/batch.hpp"
 
@@ -19,22 +20,14 @@ using closed_form::Question;
 
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kExact = 1e-9;        // m and rad: what "exact" promises
 constexpr double kAccurate = 1e-12;    // m and rad per m of distance: no need to polish
 constexpr double kPromising = 1e-5;    // an excess that polishing may still mend
-constexpr double kAtLimit = 1e-10;     // rad: rounding beyond a limit, put onto it
 constexpr double kSame = 1e-6;         // rad: rounding of a double root
 constexpr double kSameClosest = 1e-4;  // rad: of a minimum
 constexpr double kAlike = 1e-6;        // relative: equally close
 constexpr int kMost = ClosedFormSolutions::kMost;
 constexpr int kMostJoints = 9;
-
-/// A whole number near x, for |x| < 2^51: two additions, where std::round is a call.
-double whole(double x) {
-  constexpr double kRounder = 0x1.8p52;
-  return (x + kRounder) - kRounder;
-}
 
 /// The rotation nearest to one that is off by rounding, by Newton's step on R^T R = I.
 Eigen::Matrix3d orthonormal(const Eigen::Matrix3d& R) {
@@ -177,32 +170,16 @@ class ClosedFormRun {
     row.beyond = 0.0;
     for (std::size_t j = 0; j < 6; ++j) {
       double& angle = q(i)[ik_.joint_[j]];
-      angle += kTurn * whole((reference(j) - angle) * (1.0 / kTurn));
+      angle = closed_form::turned_near(reference(j), angle);
       if (!options_.respect_limits || (angle >= ik_.lower_[j] && angle <= ik_.upper_[j])) {
         continue;
       }
-      const double beyond = put_inside(ik_.lower_[j], ik_.upper_[j], angle);
+      const double beyond = closed_form::put_inside(ik_.lower_[j], ik_.upper_[j], angle);
       if (beyond > row.beyond) {
         row.beyond = beyond;
         row.joint = ik_.joint_[j];
       }
     }
-  }
-
-  /// The image inside that is nearest, or how far the nearest is outside.
-  static double put_inside(double lower, double upper, double& angle) noexcept {
-    const double up = std::max(0.0, std::ceil((lower - kAtLimit - angle) / kTurn));
-    const double down = std::max(0.0, std::ceil((angle - upper - kAtLimit) / kTurn));
-    const double moved = angle + kTurn * (up - down);
-    if (moved >= lower - kAtLimit && moved <= upper + kAtLimit) {
-      angle = std::clamp(moved, lower, upper);
-      return 0.0;
-    }
-    // Between two images: whichever is less far out.
-    const double other = moved + (up > 0.0 ? -kTurn : kTurn);
-    const auto out = [&](double at) { return std::max(lower - at, at - upper); };
-    angle = out(other) < out(moved) ? other : moved;
-    return out(angle);
   }
 
   void keep(int from, int to) noexcept {
@@ -263,7 +240,8 @@ class ClosedFormRun {
     }
     int close = 0;
     for (int i = 0; i < count_; ++i) {
-      if (rows_[i].off.squared() <= best * (1.0 + kAlike)) {
+      const PoseDistance& off = rows_[i].off;
+      if (off.squared() <= best * (1.0 + kAlike) || off.within(kExact)) {
         keep(i, close++);
       }
     }
@@ -290,14 +268,9 @@ class ClosedFormRun {
   }
 
   bool same(int a, int b, double tolerance) noexcept {
-    for (const int joint : ik_.joint_) {
-      const double difference = q(a)[joint] - q(b)[joint];
-      const double turns = kTurn * whole(difference * (1.0 / kTurn));
-      if (std::abs(difference - turns) > tolerance) {
-        return false;
-      }
-    }
-    return true;
+    return std::all_of(ik_.joint_.begin(), ik_.joint_.end(), [&](int joint) {
+      return std::abs(closed_form::turned_near(0.0, q(a)[joint] - q(b)[joint])) <= tolerance;
+    });
   }
 
   /// Branches that meet are one. Only where one is singular can they.

@@ -152,7 +152,7 @@ std::string ClosedFormIk::obstacle(const Chain& chain, int frame) {
     return {};
   }
   if (std::any_of(misfit.begin(), misfit.end(), [](const Misfit& m) { return m.degenerate; })) {
-    return "an arm that is singular everywhere, or too general";
+    return "an arm that is singular everywhere";
   }
   std::string why = "axes 2, 3, 4 off parallel by " + text(misfit[0].angle);
   why.append(" rad, 3, 4, 5 by ").append(text(misfit[1].angle));

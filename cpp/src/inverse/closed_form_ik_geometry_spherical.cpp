@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -17,9 +19,11 @@ Vector3d wrist_center(const Axes& axes, double tolerance, Misfit& misfit) {
   const CommonNormal first = common_normal(axes, 3, 4, tolerance);
   const CommonNormal second = common_normal(axes, 4, 5, tolerance);
   const Vector3d center = 0.5 * (first.on_second + second.on_first);
-  misfit.degenerate = first.sine <= tolerance || second.sine <= tolerance;
+  const bool parallel = first.sine <= tolerance || second.sine <= tolerance;
   misfit.distance =
-      std::max({first.distance, second.distance, (first.on_second - second.on_first).norm()});
+      parallel
+          ? std::numeric_limits<double>::infinity()
+          : std::max({first.distance, second.distance, (first.on_second - second.on_first).norm()});
   return center;
 }
 
@@ -123,7 +127,7 @@ std::optional<Canonical<SphericalArm>> as_spherical(const Axes& axes, double tol
                                                     Misfit& misfit) {
   const double length = length_of(axes);
   const Vector3d center = wrist_center(axes, tolerance, misfit);
-  if (misfit.degenerate || misfit.distance > tolerance * length) {
+  if (misfit.distance > tolerance * length) {
     return std::nullopt;
   }
   const Shoulder s = shoulder_of(axes, center, tolerance, length);

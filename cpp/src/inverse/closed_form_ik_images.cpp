@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <utility>
 
 #include "closed_form_ik_polish.hpp"
+#include "closed_form_ik_turns.hpp"
 #include "thing_kin/core/error.hpp"
 #include "thing_kin/inverse/closed_form_ik.hpp"
 #include "thing_kin/kinematics/batch.hpp"
@@ -11,7 +12,7 @@ namespace thing_kin {
 
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
+using closed_form::kTurn;
 
 /// From `lowest` to `highest` turns away.
 struct Range {
@@ -38,6 +39,22 @@ double squared_distance(const JointVector& q, const ClosedFormOptions& options) 
     sum += (options.weights != nullptr ? options.weights[j] : 1.0) * difference * difference;
   }
   return sum;
+}
+
+/// Nearest to the seed first; equally near ones stay in order.
+std::vector<ClosedFormSolution> by_distance(const std::vector<ClosedFormSolution>& all,
+                                            const ClosedFormOptions& options) {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    order.emplace_back(squared_distance(all[i].q, options), i);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<ClosedFormSolution> sorted;
+  sorted.reserve(all.size());
+  for (const auto& [distance, i] : order) {
+    sorted.push_back(all[i]);
+  }
+  return sorted;
 }
 
 }  // namespace
@@ -72,13 +89,7 @@ std::vector<ClosedFormSolution> ClosedFormIk::with_images(const SE3& target,
     solution.position_error = off.position;
     solution.rotation_error = off.rotation;
   }
-  if (options.seed != nullptr) {
-    std::stable_sort(all.begin(), all.end(),
-                     [&](const ClosedFormSolution& a, const ClosedFormSolution& b) {
-                       return squared_distance(a.q, options) < squared_distance(b.q, options);
-                     });
-  }
-  return all;
+  return options.seed == nullptr ? all : by_distance(all, options);
 }
 
 }  // namespace thing_kin

@@ -1565,8 +1565,8 @@ def ik_all(chain: Chain, target: numpy.typing.ArrayLike, *, seed: typing.Any = N
     
     A joint stands at the turn that is within its limits and nearest to the seed's, or without a seed to
     the middle of its range (0 if it has none). Where a joint is free, at a singularity, it stays there:
-    the last of the wrist's joints (at the far end of an arm with a spherical shoulder, the first), joint
-    1 where the wrist's center is on its axis, joint 2 where the elbow is folded onto it.
+    the last of the wrist (in an arm that is solved from its hand, the first), as far as the elbow reaches
+    if that moves it; joint 1 where the wrist's center is on its axis, joint 2 where it is on that.
     
     Parameters
     ----------
