@@ -56,7 +56,7 @@ class Report:
     leak: float = 0.0  # over max(1, |dq|)
     oracle: float = 0.0  # largest difference of a level
     differing: int = (
-        0  # by more than 1e-8: the solver allows itself 1e-11, near singularities a lot
+        0  # by more than 1e-8: theirs gives way by 1e-11, which may be much
     )
     compared: int = 0
     unanswered: int = 0
