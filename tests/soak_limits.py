@@ -55,9 +55,7 @@ class Report:
     violation: float = 0.0
     leak: float = 0.0  # over max(1, |dq|)
     oracle: float = 0.0  # largest difference of a level
-    differing: int = (
-        0  # by more than 1e-8: theirs gives way by 1e-11, which may be much
-    )
+    differing: int = 0  # by more than 1e-8: theirs gives way by 1e-11, which may be much
     compared: int = 0
     unanswered: int = 0
     limited: int = 0
