@@ -45,8 +45,8 @@ Examples
 >>> step = solver.solve(np.zeros(9), [(0.1, 0.02, 0.0)])
 >>> step.active_limits
 array([0, 0, 0, 0, 0, 0, 1, 0, 0], dtype=int8)
->>> step.limit_kinds[6], step.residuals[0].round(6) + 0.0, step.status
-('step', array([-0.05 , -0.000002,  0.  ]), 'optimal')
+>>> step.limit_kinds[6], step.residuals[0].round(3) + 0.0, step.status
+('step', array([-0.05,  0.  ,  0.  ]), 'optimal')
 )")
       .def_property_readonly(
           "dq", [](const LimitedStep& s) { return to_array(s.dq); }, "The step, (n,).")

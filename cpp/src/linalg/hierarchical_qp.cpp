@@ -66,20 +66,13 @@ void HierarchicalQp::begin(const JointVector& lower, const JointVector& upper,
   count_ = kept_count_ = iterations_ = 0;
   rows_.resize(n, kMaxIntervalRows);
   converged_ = true;
-  Z_.setZero(n, n);
-  int free = 0;
+  Z_.setIdentity(n, n);
   for (int i = 0; i < n; ++i) {
-    const bool fixed = !(lower[i] < upper[i]);
-    state_[static_cast<std::size_t>(i)] = fixed ? State::kFixed : State::kInactive;
-    if (fixed) {
-      continue;
-    }
-    Z_(i, free++) = 1.0;
+    state_[static_cast<std::size_t>(i)] = State::kInactive;
     if (x_[i] == upper[i] || x_[i] == lower[i]) {
       kept_[static_cast<std::size_t>(kept_count_++)] = {i, x_[i] == upper[i] ? 1 : -1};
     }
   }
-  Z_.conservativeResize(n, free);
 }
 
 void HierarchicalQp::warm_start() {
@@ -180,6 +173,14 @@ double HierarchicalQp::tolerance(const Level& level, const Residual& residual) c
   return kGradientRounding * level.scale * (level.scale * x_.norm() + residual.missed.norm());
 }
 
+// How much a constraint presses on the level, negative if it holds it back for nothing. One without
+// width presses either way.
+double HierarchicalQp::pull_of(int i) const {
+  const WorkingSet::Entry& entry = working_[i];
+  const bool narrow = !(bound(entry.row, -1) < bound(entry.row, 1));
+  return narrow ? std::abs(mu_[i]) : entry.side * mu_[i];
+}
+
 // Drops the constraint that pulls the wrong way; false if none does. `cautious`: the first instead
 // of the worst (Bland's rule), which can't go round in circles.
 bool HierarchicalQp::drop_one(const Level& level, const Residual& residual, bool cautious) {
@@ -189,7 +190,7 @@ bool HierarchicalQp::drop_one(const Level& level, const Residual& residual, bool
   int worst = -1;
   double least = -tolerance(level, residual);
   for (int i = 0; i < working_.size(); ++i) {
-    const double pull = working_[i].side * mu_[i];
+    const double pull = pull_of(i);
     if (cautious ? pull < -tolerance(level, residual) &&
                        (worst < 0 || working_[i].row < working_[worst].row)
                  : pull < least) {
@@ -239,7 +240,7 @@ void HierarchicalQp::leave(const Level& level, const Residual& residual,
   int count = 0;
   kept_count_ = 0;
   for (int i = 0; i < working_.size(); ++i) {
-    if (working_[i].side * mu_[i] > least) {
+    if (pull_of(i) > least) {
       pressing[static_cast<std::size_t>(count++)] = working_[i];
     } else {
       kept_[static_cast<std::size_t>(kept_count_++)] = working_[i];

@@ -9,7 +9,7 @@ import os
 import typing
 from . import lie
 from . import robots
-__all__: list[str] = ['BaseTask', 'Chain', 'DH', 'Damped', 'Exact', 'IkSolutions', 'MAX_DOF', 'OrientationTask', 'PoseTask', 'PositionTask', 'PostureTask', 'SelectivelyDamped', 'SingularValueFilter', 'Task', 'TaskPriority', 'TaskPriorityStep', 'filter_singular_values', 'has_closed_form', 'ik_all', 'lie', 'null_space', 'null_space_projector', 'on_omni_base', 'pinv', 'pose_error', 'robots', 'selectively_damped_step', 'simd_level', 'transform', 'use_simd_level']
+__all__: list[str] = ['BaseObstacleTask', 'BaseTask', 'Chain', 'DH', 'Damped', 'DistanceTask', 'Exact', 'FieldOfViewTask', 'JointRangeTask', 'LimitedStep', 'MAX_DOF', 'OrientationTask', 'PoseTask', 'PositionTask', 'PostureTask', 'SelectivelyDamped', 'SetTask', 'SingularValueFilter', 'Task', 'TaskPriority', 'TaskPriorityStep', 'WheelLimits', 'filter_singular_values', 'lie', 'null_space', 'null_space_projector', 'on_omni_base', 'pinv', 'pose_error', 'robots', 'selectively_damped_step', 'simd_level', 'transform', 'use_simd_level']
 class SingularValueFilter:
     """
     Lifts small singular values to at least sigma0, [M17] (4.12).
@@ -629,7 +629,7 @@ class Chain:
         of : str or int, optional
             The frame, from `frames`; default: the last, the tool.
         out : tuple of two float64 arrays in C order, shaped as T and J, optional
-            Where the results go, and what is returned then; they share no memory.
+            Where the results go, and what is returned then. They must not share memory.
         threads : int, optional
             At most so many; default: one, and for large batches all processors. The result is the same.
         
@@ -641,8 +641,7 @@ class Chain:
         Raises
         ------
         ValueError
-            If q has a wrong shape or is not finite, there is no such frame, or `out` is no such tuple or
-            its arrays share memory.
+            If q has a wrong shape or is not finite, or there is no such frame.
         
         Examples
         --------
@@ -1284,6 +1283,290 @@ class PostureTask(Task):
         ...
     def __repr__(self) -> str:
         ...
+class SetTask(Task):
+    """
+    What TaskPriority with limits can be asked to keep in an interval: the base of those tasks.
+    
+    After Moe, Antonelli, Teel, Pettersen and Schrimpf (2016). Inside its interval it asks for nothing;
+    a step may go to its end, and no further. Outside, the step takes away `gain` of the excess. An
+    interval is kept to first order: one with a curved bound may be missed by the square of a step, and
+    the next step takes that back.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> isinstance(tk.BaseObstacleTask(0.5), tk.SetTask)
+    True
+    """
+class DistanceTask(SetTask):
+    """
+    Keep a frame's origin at a distance from a point; target (3,), m.
+    
+    Parameters
+    ----------
+    lower, upper : float, m
+        The interval of the distance; upper may be inf (the default), lower 0.
+    gain : float in (0, 1]
+        The share of an excess that one step takes away.
+    of : str, optional
+        The frame; default: the tool.
+    
+    Raises
+    ------
+    ValueError
+        If not 0 <= lower <= upper, or the gain is out of range.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> tk.DistanceTask(lower=0.3, of="forearm")
+    DistanceTask(lower=0.3, upper=inf, gain=1.0, of='forearm')
+    """
+    def __init__(self, lower: typing.SupportsFloat | typing.SupportsIndex = 0.0, upper: typing.SupportsFloat | typing.SupportsIndex = ..., gain: typing.SupportsFloat | typing.SupportsIndex = 1.0, *, of: str | None = None) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def lower(self) -> float:
+        """
+        The least distance, m.
+        """
+    @property
+    def upper(self) -> float:
+        """
+        The largest distance, m.
+        """
+class BaseObstacleTask(SetTask):
+    """
+    Keep the base away from an obstacle; target: its center (x, y), m.
+    
+    ||p_base - p_obstacle|| >= R, [M17] (4.29) with its sign put right. The distance is a convex function
+    of q, so that no step crosses the circle.
+    
+    Parameters
+    ----------
+    radius : float, m
+        The least distance of the base's origin from the center.
+    gain : float in (0, 1]
+        The share of an excess that one step takes away.
+    
+    Raises
+    ------
+    ValueError
+        If the radius is not positive, or the gain is out of range.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> tk.BaseObstacleTask(radius=0.8)
+    BaseObstacleTask(radius=0.8, gain=1.0)
+    """
+    def __init__(self, radius: typing.SupportsFloat | typing.SupportsIndex, gain: typing.SupportsFloat | typing.SupportsIndex = 1.0) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def radius(self) -> float:
+        """
+        The least distance, m.
+        """
+class FieldOfViewTask(SetTask):
+    """
+    Keep a point in a camera's view; target: the point (3,), m.
+    
+    The angle between an axis of a frame and the direction from its origin to the point stays within a
+    limit.
+    
+    Parameters
+    ----------
+    limit : float in (0, pi), rad
+        Half the cone's opening.
+    axis : (3,), optional
+        Where the camera looks, in the frame; default: z.
+    gain : float in (0, 1]
+        The share of an excess that one step takes away.
+    of : str, optional
+        The frame; default: the tool.
+    
+    Raises
+    ------
+    ValueError
+        If the limit, the axis or the gain is out of range.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> tk.FieldOfViewTask(0.5).axis
+    array([0., 0., 1.])
+    """
+    def __init__(self, limit: typing.SupportsFloat | typing.SupportsIndex, axis: typing.Any = None, gain: typing.SupportsFloat | typing.SupportsIndex = 1.0, *, of: str | None = None) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def axis(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        In the frame, of unit length.
+        """
+    @property
+    def limit(self) -> float:
+        """
+        The largest angle, rad.
+        """
+class JointRangeTask(SetTask):
+    """
+    Keep joints in ranges narrower than their limits; target: None.
+    
+    Unlike the limits, which always hold, it has the priority of its place among the tasks.
+    
+    Parameters
+    ----------
+    lower, upper : (n,), rad and m
+        -inf and inf for joints that are free.
+    gain : float in (0, 1]
+        The share of an excess that one step takes away.
+    
+    Raises
+    ------
+    ValueError
+        If lower exceeds upper, or the gain is out of range.
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> task = tk.JointRangeTask(np.full(9, -1.0), np.full(9, 1.0))
+    >>> task.upper[0]
+    np.float64(1.0)
+    """
+    def __init__(self, lower: numpy.typing.ArrayLike, upper: numpy.typing.ArrayLike, gain: typing.SupportsFloat | typing.SupportsIndex = 1.0) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def lower(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        The ranges' lower ends, rad and m.
+        """
+    @property
+    def upper(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        The ranges' upper ends, rad and m.
+        """
+class WheelLimits:
+    """
+    Speed limit of a mecanum base's wheels, for TaskPriority with limits.
+    
+    The wheels' speeds are the inverse of [M17] (3.20): (v_x - v_y - k omega)/R front left,
+    (v_x + v_y - k omega)/R rear left, (v_x - v_y + k omega)/R rear right and (v_x + v_y + k omega)/R
+    front right, v and omega the base's velocity in its own axes.
+    
+    Parameters
+    ----------
+    radius : float, m
+        R, of a wheel.
+    k : float, m
+        Half the wheel base plus half the track.
+    speed : float, rad/s
+        The fastest that a wheel may turn, either way.
+    
+    Raises
+    ------
+    ValueError
+        If one of them is not positive or not finite.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> tk.WheelLimits(radius=0.1, k=0.5, speed=10.0)
+    WheelLimits(radius=0.1, k=0.5, speed=10.0)
+    """
+    def __eq__(self, arg0: WheelLimits) -> bool:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, radius: typing.SupportsFloat | typing.SupportsIndex, k: typing.SupportsFloat | typing.SupportsIndex, speed: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def k(self) -> float:
+        """
+        Half the wheel base plus half the track, m.
+        """
+    @property
+    def radius(self) -> float:
+        """
+        R of a wheel, m.
+        """
+    @property
+    def speed(self) -> float:
+        """
+        The largest speed, rad/s.
+        """
+class LimitedStep:
+    """
+    One step of TaskPriority with limits, explained.
+    
+    A level is a task, highest priority first.
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> robot = tk.robots.thing()
+    >>> solver = tk.TaskPriority(robot, [tk.BaseTask()], limits=True, dt=0.1, step_limit=0.05)
+    >>> step = solver.solve(np.zeros(9), [(0.1, 0.02, 0.0)])
+    >>> step.active_limits
+    array([0, 0, 0, 0, 0, 0, 1, 0, 0], dtype=int8)
+    >>> step.limit_kinds[6], step.residuals[0].round(3) + 0.0, step.status
+    ('step', array([-0.05,  0.  ,  0.  ]), 'optimal')
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def active_intervals(self) -> list:
+        """
+        Of each set-based task's rows, int8: 1 where the step leads to the upper end or beyond, -1 the lower; empty for other tasks.
+        """
+    @property
+    def active_limits(self) -> numpy.typing.NDArray[numpy.int8]:
+        """
+        (n,), int8: 1 where dq is at its upper bound, -1 at its lower, 0 between.
+        """
+    @property
+    def active_wheels(self) -> numpy.typing.NDArray[numpy.int8]:
+        """
+        (4,), int8: 1 or -1 where a wheel is at its limit; front left, rear left, rear right, front right.
+        """
+    @property
+    def dq(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        The step, (n,).
+        """
+    @property
+    def errors(self) -> list:
+        """
+        Error of each task before its gain; of a set-based task what leads back into its interval, zero inside.
+        """
+    @property
+    def iterations(self) -> int:
+        """
+        Of the active set, all levels together; 0 if nothing was in the way.
+        """
+    @property
+    def limit_kinds(self) -> list:
+        """
+        What each of these bounds comes from: 'position', 'velocity', 'acceleration', 'step', or '' between them.
+        """
+    @property
+    def residuals(self) -> list:
+        """
+        What each level misses: J dq - gain * error; of a set-based task how far J dq is outside of what the interval allows, below negative.
+        """
+    @property
+    def status(self) -> str:
+        """
+        'optimal', or 'iteration_limit': limits and priorities hold, but a level may not be at its best.
+        """
 class TaskPriorityStep:
     """
     One step of TaskPriority, explained.
@@ -1339,7 +1622,12 @@ class TaskPriority:
     leave free, so that it never disturbs them, also when the inverse is damped or filtered. With tasks
     [PoseTask(), BaseTask()] and scheme 'chiaverini' this is the motion scheme (4.18).
     
-    A solver is immutable: any number of threads may share it. Joint limits are not enforced.
+    With limits=True each step is a bounded least-squares problem in strict order: it keeps the robot's
+    position, velocity and acceleration limits, the wheels' speeds and the intervals of set-based tasks,
+    and each task is met as well as these and the tasks before it allow. Without, limits are not looked
+    at.
+    
+    A solver is immutable: any number of threads may share it.
     
     Parameters
     ----------
@@ -1348,20 +1636,27 @@ class TaskPriority:
         Highest priority first, at most 16 (two for 'nakamura').
     scheme : str
         'nakamura': (4.16). 'siciliano': the same recursion for any number of tasks; exact, but unbounded
-        where a lower task conflicts with a higher one. 'chiaverini' (default): (4.17); stays bounded
-        there, and converges more slowly.
+        where a lower task conflicts with a higher one. 'chiaverini': (4.17); stays bounded there, and
+        converges more slowly. Default 'chiaverini', with limits 'siciliano', which is least squares.
     inverse : Exact, Damped or SelectivelyDamped
-        Default SelectivelyDamped(pi/4).
+        Default SelectivelyDamped(pi/4), with limits Damped(1e-4); SelectivelyDamped is none for limits.
     singular_value_filter : SingularValueFilter, optional
         Applied to each inverted matrix first.
     step_limit : float or (n,), optional
         Largest |dq| of each joint, rad or m. Scales each task's contribution, lowest priority first, and
-        never the sum: the direction in which a higher task moves does not change.
+        never the sum: the direction in which a higher task moves does not change. With limits one more
+        bound of the least squares, which may change that direction to come nearer.
+    limits : bool
+        Default False.
+    dt : float, s
+        Duration of a step, with limits: a joint moves by at most velocity limit * dt.
+    wheel_limits : WheelLimits, optional
+        With limits, for a mecanum base.
     
     Raises
     ------
     ValueError
-        If a task, frame, scheme or limit does not fit the robot.
+        If a task, frame, scheme or limit does not fit the robot, or an option the others.
     
     Examples
     --------
@@ -1375,22 +1670,23 @@ class TaskPriority:
     >>> bool(np.linalg.norm(tk.pose_error(robot.fk(q), T_goal)) < 1e-6)
     True
     """
-    def __init__(self, robot: Chain, tasks: collections.abc.Sequence[Task], *, scheme: str = 'chiaverini', inverse: Exact | Damped | SelectivelyDamped = ..., singular_value_filter: SingularValueFilter | None = None, step_limit: typing.Any = None) -> None:
+    def __init__(self, robot: Chain, tasks: collections.abc.Sequence[Task], *, scheme: str | None = None, inverse: Exact | Damped | SelectivelyDamped | None = None, singular_value_filter: SingularValueFilter | None = None, step_limit: typing.Any = None, limits: bool = False, dt: typing.SupportsFloat | typing.SupportsIndex | None = None, wheel_limits: WheelLimits | None = None) -> None:
         ...
     def __repr__(self) -> str:
         ...
-    def solve(self, q: numpy.typing.ArrayLike, targets: collections.abc.Sequence, null_motion: typing.Any = None) -> TaskPriorityStep:
+    def solve(self, q: numpy.typing.ArrayLike, targets: collections.abc.Sequence, null_motion: typing.Any = None, previous: typing.Any = None) -> TaskPriorityStep | LimitedStep:
         """
         As step, with what each task contributed.
         
         Parameters
         ----------
-        q, targets, null_motion
+        q, targets, null_motion, previous
             As for step.
         
         Returns
         -------
         TaskPriorityStep
+            With limits a LimitedStep.
         
         Examples
         --------
@@ -1402,7 +1698,7 @@ class TaskPriority:
         >>> step.limited, bool(abs(step.dq).max() <= 0.05)
         (True, True)
         """
-    def step(self, q: numpy.typing.ArrayLike, targets: collections.abc.Sequence, null_motion: typing.Any = None) -> numpy.typing.NDArray[numpy.float64]:
+    def step(self, q: numpy.typing.ArrayLike, targets: collections.abc.Sequence, null_motion: typing.Any = None, previous: typing.Any = None) -> numpy.typing.NDArray[numpy.float64]:
         """
         One step dq towards the targets; q + dq is the next configuration.
         
@@ -1413,9 +1709,12 @@ class TaskPriority:
         q : (n,), rad and m
         targets : sequence
             One a task: (4, 4) for a pose, (3, 3) for an orientation, (3,) for a position or a base pose,
-            (n,) for a posture.
+            (n,) for a posture; None where a task has no target.
         null_motion : (n,), optional
             The z of (4.16), (4.17): motion wanted where all tasks leave the robot free.
+        previous : (n,), optional
+            With limits, the step before this one: the acceleration, (dq - previous)/dt^2, is limited too, and
+            speeds to what can still be stopped before a position limit. Default: the acceleration is free.
         
         Returns
         -------
@@ -1436,6 +1735,11 @@ class TaskPriority:
         array([0., 0., 0., 0., 0., 0., 0., 0., 0.])
         """
     @property
+    def limits(self) -> bool:
+        """
+        Whether steps are bounded.
+        """
+    @property
     def robot(self) -> Chain:
         """
         The chain.
@@ -1444,68 +1748,6 @@ class TaskPriority:
     def scheme(self) -> str:
         """
         'nakamura', 'siciliano' or 'chiaverini'.
-        """
-class IkSolutions:
-    """
-    What ik_all found: a sequence of configurations.
-    
-    len(), iteration and indexing are those of q, and numpy takes it for q. Which solutions are worth
-    having, and why there are none, is said beside it.
-    
-    Examples
-    --------
-    >>> import numpy as np, thing_kin as tk
-    >>> arm = tk.robots.ur5()
-    >>> solutions = tk.ik_all(arm, arm.fk([0.1, -1.2, 1.4, -0.6, 1.2, 0.0]))
-    >>> solutions
-    IkSolutions(8 solutions)
-    >>> np.asarray(solutions).shape, solutions.exact.all().item()
-    ((8, 6), True)
-    """
-    def __array__(self, dtype: typing.Any = None, copy: typing.Any = None) -> typing.Any:
-        ...
-    def __getitem__(self, arg0: typing.Any) -> typing.Any:
-        ...
-    def __iter__(self) -> collections.abc.Iterator:
-        ...
-    def __len__(self) -> int:
-        ...
-    def __repr__(self) -> str:
-        ...
-    @property
-    def exact(self) -> numpy.typing.NDArray[numpy.bool]:
-        """
-        (k,) bool: whether both errors are at most 1e-9.
-        """
-    @property
-    def message(self) -> str:
-        """
-        The same in words, with numbers.
-        """
-    @property
-    def position_error(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (k,), m: distance from the target, by forward kinematics.
-        """
-    @property
-    def q(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (k, n), rad and m: one solution a row.
-        """
-    @property
-    def rotation_error(self) -> numpy.typing.NDArray[numpy.float64]:
-        """
-        (k,), rad: angle from the target, by forward kinematics.
-        """
-    @property
-    def singular(self) -> list[str | None]:
-        """
-        For each solution 'shoulder', 'elbow' or 'wrist' where two branches meet, within 1e-6 rad or so; else None.
-        """
-    @property
-    def status(self) -> str:
-        """
-        'solved'; 'outside_limits': reached, but only beyond joint limits, and so empty; 'unreachable': what is here comes closest.
         """
 def filter_singular_values(J: numpy.typing.ArrayLike, sigma0: typing.SupportsFloat | typing.SupportsIndex, nu: typing.SupportsFloat | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float64]:
     """
@@ -1528,87 +1770,6 @@ def filter_singular_values(J: numpy.typing.ArrayLike, sigma0: typing.SupportsFlo
     >>> tk.filter_singular_values(rank_one, sigma0=0.01, nu=10.0).round(3)
     array([[3.  , 0.  ],
            [0.  , 0.01]])
-    """
-def has_closed_form(chain: Chain, frame: str | int | None = None) -> bool:
-    """
-    Whether ik_all takes this chain.
-    
-    Parameters
-    ----------
-    chain : Chain
-    frame : str or int, optional
-        Name (or index) from `frames`; default: the last, the tool.
-    
-    Returns
-    -------
-    bool
-    
-    Raises
-    ------
-    ValueError
-        If there is no such frame.
-    
-    Examples
-    --------
-    >>> import thing_kin as tk
-    >>> tk.has_closed_form(tk.robots.ur10()), tk.has_closed_form(tk.robots.ur10(), "forearm")
-    (True, False)
-    """
-def ik_all(chain: Chain, target: numpy.typing.ArrayLike, *, seed: typing.Any = None, base: typing.Any = None, frame: str | int | None = None, respect_limits: bool = True, images: bool = False, weights: typing.Any = None) -> IkSolutions:
-    """
-    Every configuration of a six-joint arm for a pose, in closed form.
-    
-    For arms with three parallel axes (2, 3, 4 or 3, 4, 5), such as those of Universal Robots, and arms
-    with a spherical wrist (axes 4, 5, 6 meet) or shoulder (1, 2, 3), on a base or not; their axes decide,
-    not their names. Up to eight branches by subproblems after Pieper (1968), Paden (1986), and Elias and
-    Wen (2022), each checked by forward kinematics, and polished where rounded dimensions ask for it.
-    
-    A joint stands at the turn that is within its limits and nearest to the seed's, or without a seed to
-    the middle of its range (0 if it has none). Where a joint is free, at a singularity, it stays there:
-    the last of the wrist (in an arm that is solved from its hand, the first), as far as the elbow reaches
-    if that moves it; joint 1 where the wrist's center is on its axis, joint 2 where it is on that.
-    
-    Parameters
-    ----------
-    chain : Chain
-    target : (4, 4)
-        Pose of the frame in the root.
-    seed : (n,), rad and m, optional
-        Solutions come nearest first. Without it: in a fixed order, by shoulder, then wrist, then elbow,
-        or for a spherical wrist by shoulder, elbow, wrist.
-    base : (3,), optional
-        x, y (m) and theta (rad) of the base, for a chain on one: solutions are for this place.
-    frame : str or int, optional
-        Name (or index) from `frames`, behind the last joint; default: the last, the tool.
-    respect_limits : bool
-        Leave out what is beyond joint limits in every turn.
-    images : bool
-        All turns of all joints that are within limits, not only the nearest. At most 100 000.
-    weights : (n,), optional
-        Of the squared differences in the distance to the seed; default 1.
-    
-    Returns
-    -------
-    IkSolutions
-        Where the arm can't reach the target, the closest it comes (m and rad count alike), marked as
-        not exact; where it only can beyond its limits, nothing; the message says so.
-    
-    Raises
-    ------
-    ValueError
-        If the arm has no closed form here, an argument has a wrong shape or is not finite, the target is
-        not rigid, or the base is missing or beyond its limits.
-    
-    Examples
-    --------
-    >>> import numpy as np, thing_kin as tk
-    >>> robot = tk.robots.thing()
-    >>> q = np.array([0.0, -1.2, 1.4, -0.6, 1.2, 0.0, 0.3, -0.2, 0.4])
-    >>> solutions = tk.ik_all(robot, robot.fk(q), seed=q, base=q[6:])
-    >>> len(solutions), np.allclose(solutions[0], q, atol=1e-9)
-    (8, True)
-    >>> tk.ik_all(robot, tk.transform(xyz=(0, 0, 3)), base=(0, 0, 0)).status
-    'unreachable'
     """
 def null_space(J: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
     """

@@ -100,7 +100,9 @@ def inverted(
     base: NDArray[np.float64],
 ) -> NDArray[np.float64]:
     """Smallest singular value of the matrix that each level inverts, before any filter."""
-    return np.array([sigma[-1] for sigma in solver.solve(q, [hand, base]).singular_values])
+    step = solver.solve(q, [hand, base])
+    assert isinstance(step, tk.TaskPriorityStep)  # the solver has no limits
+    return np.array([sigma[-1] for sigma in step.singular_values])
 
 
 def hand_errors(

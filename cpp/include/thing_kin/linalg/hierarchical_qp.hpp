@@ -77,6 +77,7 @@ class HierarchicalQp {
   bool descend(const Level& level, const Residual& residual);
   int first_block(const JointVector& d, double& alpha) const;
   double tolerance(const Level& level, const Residual& residual) const;
+  double pull_of(int i) const;
   bool drop_one(const Level& level, const Residual& residual, bool cautious);
   void leave(const Level& level, const Residual& residual, const RegularizedRows* rows);
   void remember(const Level& level, const Residual& residual);
