@@ -32,6 +32,7 @@ def random_case(rng: Generator, targets: int) -> SoakCase:
     robot = random_chain(rng)
     if rng.random() < 0.3:
         robot = ROBOTS[str(rng.choice(list(ROBOTS)))]()
+        robot = with_random_limits(rng, robot) if rng.random() < 0.3 else robot
     frames = robot.frames
     frame = frames[-1] if rng.random() < 0.7 else str(rng.choice(frames))
     options = random_options(rng, robot.n)
@@ -85,6 +86,14 @@ def random_limits(rng: Generator) -> tuple[float, float]:
             return middle - half, middle + half
 
 
+def with_random_limits(rng: Generator, robot: tk.Chain) -> tk.Chain:
+    lower, upper = robot.lower.copy(), robot.upper.copy()
+    for j, joint in enumerate(robot.joint_types):
+        if joint != "continuous" and rng.random() < 0.5:
+            lower[j], upper[j] = random_limits(rng)
+    return robot.with_limits(lower=lower, upper=upper)
+
+
 def random_options(rng: Generator, n: int) -> dict[str, Any]:
     options: dict[str, Any] = {
         "task": str(rng.choice(TASKS, p=[0.6, 0.2, 0.2])),
@@ -93,6 +102,7 @@ def random_options(rng: Generator, n: int) -> dict[str, Any]:
         "max_iterations": int(10 ** rng.uniform(0, 2.5)),
         "max_restarts": int(rng.choice([0, 1, 5, 100, 2**31 - 1])),
         "rng": int(rng.integers(0, 2**63)),
+        "closed_form": bool(rng.random() < 0.8),
     }
     for name in ("position_tolerance", "rotation_tolerance"):
         if rng.random() < 0.5:

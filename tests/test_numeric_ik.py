@@ -514,6 +514,32 @@ class TestExtremes:
         assert result.status == "deadline"
         assert 1 <= result.iterations <= 40  # one attempt
 
+    @pytest.mark.parametrize("restarts", [0, 1, 2])
+    @pytest.mark.parametrize("nearest", [False, True])
+    def test_small_budgets_beside_a_closed_form(self, restarts: int, nearest: bool) -> None:
+        """Its solutions cost iterations, too, and all of them may be outside limits or max_step."""
+        arm = tk.robots.ur10()
+        tight = arm.with_limits(lower=np.full(6, 0.1), upper=np.full(6, 0.4))
+        targets = arm.fk(arm.random(100, rng=32))
+        seed = np.full(6, 0.2) if nearest else None
+        for iterations in (1, 2, 5, 40):
+            for max_step in (None, 0.05) if nearest else (None,):
+                results = tk.ik(
+                    tight,
+                    targets,
+                    seed=seed,
+                    nearest=nearest,
+                    max_step=max_step,
+                    max_restarts=restarts,
+                    max_iterations=iterations,
+                )
+                assert not results.success.any()
+                assert np.all((results.q >= 0.1) & (results.q <= 0.4))
+                assert np.all(results.restarts <= restarts)
+                T = tight.fk(results.q)
+                away = np.linalg.norm(T[:, :3, 3] - targets[:, :3, 3], axis=1)
+                np.testing.assert_allclose(results.position_error, away, atol=1e-13)
+
     @pytest.mark.parametrize("frame", [0, "shoulder"])
     def test_a_frame_that_hardly_moves(self, frame: int | str) -> None:
         arm = tk.robots.ur5()

@@ -148,6 +148,22 @@ TEST(JointBox, GoesOnAtTheOtherEnd) {
   JointVector q = JointVector::Zero(6);
   box.wind_towards(JointVector::Constant(6, 5.0), q);
   EXPECT_EQ(q, JointVector::Constant(6, 2 * pi));
+  q.setZero();
+  box.wind_towards(JointVector::Constant(6, 3.0), q);  // less than half a turn away
+  EXPECT_EQ(q, JointVector::Zero(6));
+  box.wind_towards(JointVector::Constant(6, -4.0), q);
+  EXPECT_EQ(q, JointVector::Constant(6, -2 * pi));
+}
+
+TEST(JointBox, LessThanATurnHasTwoEnds) {
+  DhRow row;
+  row.joint = JointType::kRevolute;
+  row.limits.lower = -std::numbers::pi;
+  row.limits.upper = std::numbers::pi - 1e-6;
+  const Chain chain = Chain::from_dh(std::vector<DhRow>{row});
+  const JointBox box(chain);
+  EXPECT_FALSE(box.is_endless(0));
+  EXPECT_EQ(box.inside(0, 3.5), chain.upper()[0]);
 }
 
 TEST(JointBox, KeepsNearExactly) {

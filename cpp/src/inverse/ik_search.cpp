@@ -76,7 +76,7 @@ IkResult IkSearch::run() noexcept {
   const bool closed = solver_.closed_form_.has_value() && !is_hopeless_;
   bool reached = false;
   if (options_.nearest && closed) {
-    reached = ask_closed_form() || attempt(seed_);
+    reached = ask_closed_form() || (has_more() && attempt(seed_));
   } else {
     reached = (has_seed_ && attempt(seed_)) || (closed && has_more() && ask_closed_form());
   }
@@ -106,10 +106,11 @@ bool IkSearch::ask_closed_form() noexcept {
                                .weights = weights.size() > 0 ? weights.data() : nullptr});
   for (const ClosedFormSolution& solution : solutions) {
     IkPoint point{solution.q, {}};
-    if (!problem_.box.contains(solution.q)) {
+    const int most = std::min(kMostIterations, options_.max_iterations - iterations_);
+    if (most <= 0 || !problem_.box.contains(solution.q)) {
       continue;
     }
-    if (descend(problem_, kMostIterations, point, iterations_)) {
+    if (descend(problem_, most, point, iterations_)) {
       best_ = point;
       is_nearest_ = solution.exact;
       return true;
@@ -209,9 +210,9 @@ IkResult IkSearch::found() noexcept {
 }
 
 IkResult IkSearch::failed() noexcept {
-  if (attempts_ == 0) {  // no time for even one
-    best_.q = samples_.middle();
-    return result(IkStatus::kDeadline);
+  if (misses_.nearest().empty()) {  // no time for even one; or no closed form within the box
+    best_.q = has_seed_ ? seed_ : samples_.middle();
+    return result(reason({}));
   }
   const Rest rest = come_nearest();
   if (has_seed_) {
