@@ -2,10 +2,10 @@
 
 from collections.abc import Callable
 
-import arms
 import numpy as np
 from numpy.typing import NDArray
 
+import arms
 import thing_kin as tk
 
 Vector = NDArray[np.float64]

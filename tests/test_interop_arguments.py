@@ -29,6 +29,9 @@ TAKE_SEVERAL = {"se3_log", "se3_adjoint", "pose_error", "pose_error body"} | {
     "rpy_from_rotation",
     "from_pose",
     "quaternion",
+    "ik",
+    "ik orientation",
+    "kdl.ik",
 }
 
 by_label = {"ids": lambda argument: f"{argument.label}-{argument.name}"}

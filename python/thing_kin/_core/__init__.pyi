@@ -4,12 +4,13 @@ The C++ core of thing_kin. Private: import its names from thing_kin.
 from __future__ import annotations
 import collections.abc
 import numpy
+import numpy.random
 import numpy.typing
 import os
 import typing
 from . import lie
 from . import robots
-__all__: list[str] = ['BaseObstacleTask', 'BaseTask', 'Chain', 'DH', 'Damped', 'DistanceTask', 'Exact', 'FieldOfViewTask', 'JointRangeTask', 'LimitedStep', 'MAX_DOF', 'OrientationTask', 'PoseTask', 'PositionTask', 'PostureTask', 'SelectivelyDamped', 'SetTask', 'SingularValueFilter', 'Task', 'TaskPriority', 'TaskPriorityStep', 'WheelLimits', 'filter_singular_values', 'lie', 'null_space', 'null_space_projector', 'on_omni_base', 'pinv', 'pose_error', 'robots', 'selectively_damped_step', 'simd_level', 'transform', 'use_simd_level']
+__all__: list[str] = ['BaseObstacleTask', 'BaseTask', 'Chain', 'DH', 'Damped', 'DistanceTask', 'Exact', 'FieldOfViewTask', 'IkBatchResult', 'IkResult', 'IkSolutions', 'JointRangeTask', 'LimitedStep', 'MAX_DOF', 'NumericIk', 'OrientationTask', 'PoseTask', 'PositionTask', 'PostureTask', 'SelectivelyDamped', 'SetTask', 'SingularValueFilter', 'Task', 'TaskPriority', 'TaskPriorityStep', 'WheelLimits', 'filter_singular_values', 'has_closed_form', 'ik', 'ik_all', 'lie', 'null_space', 'null_space_projector', 'on_omni_base', 'pinv', 'pose_error', 'robots', 'selectively_damped_step', 'simd_level', 'transform', 'use_simd_level']
 class SingularValueFilter:
     """
     Lifts small singular values to at least sigma0, [M17] (4.12).
@@ -629,7 +630,7 @@ class Chain:
         of : str or int, optional
             The frame, from `frames`; default: the last, the tool.
         out : tuple of two float64 arrays in C order, shaped as T and J, optional
-            Where the results go, and what is returned then. They must not share memory.
+            Where the results go, and what is returned then; they share no memory.
         threads : int, optional
             At most so many; default: one, and for large batches all processors. The result is the same.
         
@@ -641,7 +642,8 @@ class Chain:
         Raises
         ------
         ValueError
-            If q has a wrong shape or is not finite, or there is no such frame.
+            If q has a wrong shape or is not finite, there is no such frame, or `out` is no such tuple or
+            its arrays share memory.
         
         Examples
         --------
@@ -1749,6 +1751,309 @@ class TaskPriority:
         """
         'nakamura', 'siciliano' or 'chiaverini'.
         """
+class IkSolutions:
+    """
+    What ik_all found: a sequence of configurations.
+    
+    len(), iteration and indexing are those of q, and numpy takes it for q. Which solutions are worth
+    having, and why there are none, is said beside it.
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> arm = tk.robots.ur5()
+    >>> solutions = tk.ik_all(arm, arm.fk([0.1, -1.2, 1.4, -0.6, 1.2, 0.0]))
+    >>> solutions
+    IkSolutions(8 solutions)
+    >>> np.asarray(solutions).shape, solutions.exact.all().item()
+    ((8, 6), True)
+    """
+    def __array__(self, dtype: typing.Any = None, copy: typing.Any = None) -> typing.Any:
+        ...
+    def __getitem__(self, arg0: typing.Any) -> typing.Any:
+        ...
+    def __iter__(self) -> collections.abc.Iterator:
+        ...
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def exact(self) -> numpy.typing.NDArray[numpy.bool]:
+        """
+        (k,) bool: whether both errors are at most 1e-9.
+        """
+    @property
+    def message(self) -> str:
+        """
+        The same in words, with numbers.
+        """
+    @property
+    def position_error(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (k,), m: distance from the target, by forward kinematics.
+        """
+    @property
+    def q(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (k, n), rad and m: one solution a row.
+        """
+    @property
+    def rotation_error(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (k,), rad: angle from the target, by forward kinematics.
+        """
+    @property
+    def singular(self) -> list[str | None]:
+        """
+        For each solution 'shoulder', 'elbow' or 'wrist' where two branches meet, within 1e-6 rad or so; else None.
+        """
+    @property
+    def status(self) -> str:
+        """
+        'solved'; 'outside_limits': reached, but only beyond joint limits, and so empty; 'unreachable': what is here comes closest.
+        """
+class IkResult:
+    """
+    What an inverse kinematics solver found, and why not more.
+    
+    q is always finite and within the limits, also without success: then it is the best that was found.
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> arm = tk.robots.ur10()
+    >>> result = tk.ik(arm, tk.transform(xyz=(0.0, 0.0, 5.0)))
+    >>> result.success, result.status
+    (False, 'unreachable')
+    >>> bool(result.position_error > 3.5)
+    True
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def active_limits(self) -> numpy.typing.NDArray[numpy.int8]:
+        """
+        (n,) int8: -1 where the joint is at its lower limit, 1 at its upper.
+        """
+    @property
+    def iterations(self) -> int:
+        """
+        Of all attempts together.
+        """
+    @property
+    def message(self) -> str:
+        """
+        The status in a sentence.
+        """
+    @property
+    def position_error(self) -> float:
+        """
+        Distance from the target, m, of the coordinates that count.
+        """
+    @property
+    def q(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (n,), rad and m.
+        """
+    @property
+    def restarts(self) -> int:
+        """
+        Attempts after the first.
+        """
+    @property
+    def rotation_error(self) -> float:
+        """
+        Angle from the target, rad, of the coordinates that count.
+        """
+    @property
+    def status(self) -> str:
+        """
+        How it ended.
+        
+        'success'; 'unreachable': no pose found is nearer, and no limit holds the robot back; 'limited': joint
+        limits do; 'step_bound': max_step does; 'budget' or 'deadline': ran out.
+        """
+    @property
+    def success(self) -> bool:
+        """
+        Whether the target is met within tolerance and limits, by forward kinematics of q.
+        """
+    @property
+    def time(self) -> float:
+        """
+        Seconds.
+        """
+class IkBatchResult:
+    """
+    The results for many targets: an array a field.
+    
+    len(results) targets; results[i] is the IkResult of target i.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> arm = tk.robots.ur5()
+    >>> results = tk.ik(arm, arm.fk(arm.random(3, rng=0)))
+    >>> results.q.shape, bool(results.success.all()), results[0].status
+    ((3, 6), True, 'success')
+    """
+    def __getitem__(self, i: typing.SupportsInt | typing.SupportsIndex) -> IkResult:
+        ...
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def active_limits(self) -> numpy.typing.NDArray[numpy.int8]:
+        """
+        (N, n) int8, -1, 0 or 1.
+        """
+    @property
+    def iterations(self) -> numpy.typing.NDArray[numpy.int32]:
+        """
+        (N,).
+        """
+    @property
+    def message(self) -> list:
+        """
+        A list of N sentences.
+        """
+    @property
+    def position_error(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N,), m.
+        """
+    @property
+    def q(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N, n), rad and m.
+        """
+    @property
+    def restarts(self) -> numpy.typing.NDArray[numpy.int32]:
+        """
+        (N,).
+        """
+    @property
+    def rotation_error(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N,), rad.
+        """
+    @property
+    def status(self) -> typing.Any:
+        """
+        (N,) str: see IkResult.
+        """
+    @property
+    def success(self) -> numpy.typing.NDArray[numpy.bool]:
+        """
+        (N,) bool.
+        """
+    @property
+    def time(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N,), seconds.
+        """
+class NumericIk:
+    """
+    Numerical inverse kinematics of any chain.
+    
+    A damped Gauss-Newton descent (Levenberg-Marquardt with the damping in proportion to the cost,
+    Sugihara 2011) on the exact Jacobian of the log error (4.28). It never leaves the joint limits, gives
+    up early where it stalls and begins anew, from the best of a few low-discrepancy samples. What it
+    calls a success is checked by forward kinematics. The result depends on target, seed and options
+    alone.
+    
+    Immutable: any number of threads may share one. For a control loop: tk.ik makes one a call.
+    
+    Parameters
+    ----------
+    chain : Chain
+    frame : str or int, optional
+        The frame that is to reach the target; default the last.
+    task : str
+        'pose': targets (4, 4). 'position': targets (3,), m, any orientation. 'orientation': targets
+        (3, 3), any position.
+    weights : (6,), optional
+        How much each coordinate [x, y, z, rx, ry, rz] matters; 0: it is free. Default ones.
+    weight_axes : str
+        The axes they are of: 'target' or 'world'. Weights (1, 1, 1, 1, 1, 0) of the target leave the
+        hand's turn about its own z free.
+    position_tolerance, rotation_tolerance : float > 0
+        m and rad, of the coordinates that count.
+    joint_weights : float or (n,), optional
+        Cost of each joint's motion, 1e-6 to 1e6: a joint with a larger weight moves less. Default ones.
+    max_step : float or (n,), optional
+        How far from the seed each joint may be, rad and m. Fails rather than jumps. Needs a seed.
+    nearest : bool
+        Search on for the solution nearest to the seed, by joint_weights. Needs a seed.
+    objective : str
+        What to do with freedom that is left: 'none'; 'seed': stay near it; 'limits': keep to the middle
+        of the joint ranges; 'manipulability': (4.30). A local optimum.
+    max_iterations, max_restarts : int
+        Of one target, all attempts together.
+    deadline : float, optional
+        Seconds for one target. With it, results are no longer the same on any machine.
+    rng : int or numpy.random.Generator
+        Which restarts are tried.
+    closed_form : bool
+        Whether an arm that has a closed form (see ik_all) restarts from its solutions.
+    
+    Raises
+    ------
+    ValueError
+        If an option does not fit the chain.
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> arm = tk.robots.ur10()
+    >>> solver = tk.NumericIk(arm, max_step=0.1)
+    >>> q = np.array([0.1, -1.0, 1.2, -0.5, 0.8, 0.0])
+    >>> result = solver.solve(arm.fk(q + 0.05), seed=q)
+    >>> result.success, bool(np.abs(result.q - q).max() < 0.1)
+    (True, True)
+    """
+    def __init__(self, chain: Chain, *, frame: str | int | None = None, task: str = 'pose', weights: numpy.typing.ArrayLike | None = None, weight_axes: str = 'target', position_tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-07, rotation_tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-07, joint_weights: numpy.typing.ArrayLike | None = None, max_step: numpy.typing.ArrayLike | None = None, nearest: bool = False, objective: str = 'none', max_iterations: typing.SupportsInt | typing.SupportsIndex = 3000, max_restarts: typing.SupportsInt | typing.SupportsIndex = 100, deadline: typing.SupportsFloat | typing.SupportsIndex | None = None, rng: typing.SupportsIndex | numpy.random.Generator = 0, closed_form: bool = True) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def solve(self, target: numpy.typing.ArrayLike, seed: numpy.typing.ArrayLike | None = None, *, threads: typing.SupportsIndex | None = None) -> typing.Any:
+        """
+        Solves one target or many.
+        
+        Parameters
+        ----------
+        target : (4, 4), (3,) or (3, 3), or N of them
+            As the task says, in the root.
+        seed : (n,) or (N, n), optional
+            Where to begin; brought into the limits first. One for all targets, or one a target.
+        threads : int, optional
+            At most; by default as many as pay. The result does not depend on it.
+        
+        Returns
+        -------
+        IkResult or IkBatchResult
+        
+        Raises
+        ------
+        ValueError
+            If a shape does not fit, a number is not finite or a pose is not rigid; if the options need a
+            seed and there is none.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> robot = tk.robots.thing()
+        >>> targets = robot.fk(robot.random(4, rng=1))
+        >>> tk.NumericIk(robot).solve(targets)
+        IkBatchResult(4 of 4 reached)
+        """
+    @property
+    def chain(self) -> typing.Any:
+        """
+        The chain.
+        """
 def filter_singular_values(J: numpy.typing.ArrayLike, sigma0: typing.SupportsFloat | typing.SupportsIndex, nu: typing.SupportsFloat | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float64]:
     """
     The matrix with its singular values lifted, [M17] (4.13).
@@ -1770,6 +2075,125 @@ def filter_singular_values(J: numpy.typing.ArrayLike, sigma0: typing.SupportsFlo
     >>> tk.filter_singular_values(rank_one, sigma0=0.01, nu=10.0).round(3)
     array([[3.  , 0.  ],
            [0.  , 0.01]])
+    """
+def has_closed_form(chain: Chain, frame: str | int | None = None) -> bool:
+    """
+    Whether ik_all takes this chain.
+    
+    Parameters
+    ----------
+    chain : Chain
+    frame : str or int, optional
+        Name (or index) from `frames`; default: the last, the tool.
+    
+    Returns
+    -------
+    bool
+    
+    Raises
+    ------
+    ValueError
+        If there is no such frame.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> tk.has_closed_form(tk.robots.ur10()), tk.has_closed_form(tk.robots.ur10(), "forearm")
+    (True, False)
+    """
+def ik(chain: Chain, target: numpy.typing.ArrayLike, seed: numpy.typing.ArrayLike | None = None, *, frame: str | int | None = None, task: str = 'pose', weights: numpy.typing.ArrayLike | None = None, weight_axes: str = 'target', position_tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-07, rotation_tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-07, joint_weights: numpy.typing.ArrayLike | None = None, max_step: numpy.typing.ArrayLike | None = None, nearest: bool = False, objective: str = 'none', max_iterations: typing.SupportsInt | typing.SupportsIndex = 3000, max_restarts: typing.SupportsInt | typing.SupportsIndex = 100, deadline: typing.SupportsFloat | typing.SupportsIndex | None = None, rng: typing.SupportsIndex | numpy.random.Generator = 0, closed_form: bool = True, threads: typing.SupportsIndex | None = None) -> typing.Any:
+    """
+    Joint angles that bring a frame to a target.
+    
+    Never raises because there is no solution: the result says why, and is as near as could be.
+    
+    Parameters
+    ----------
+    chain : Chain
+    target : (4, 4) or (N, 4, 4)
+        In the root; (3,) for task='position', (3, 3) for task='orientation'.
+    seed : (n,) or (N, n), optional
+        Where to begin; brought into the limits first.
+    frame, task, weights, weight_axes, position_tolerance, rotation_tolerance, joint_weights, max_step, nearest, objective, max_iterations, max_restarts, deadline, rng, closed_form
+        See NumericIk.
+    threads : int, optional
+        At most, for many targets; by default as many as pay. The result does not depend on it.
+    
+    Returns
+    -------
+    IkResult or IkBatchResult
+    
+    Raises
+    ------
+    ValueError
+        If an argument does not fit the chain; if nearest, max_step or objective='seed' have no seed.
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> robot = tk.robots.thing()
+    >>> T = robot.fk(robot.random(rng=5))
+    >>> result = tk.ik(robot, T, seed=np.zeros(9))
+    >>> result.success, bool(np.allclose(robot.fk(result.q), T, atol=1e-6))
+    (True, True)
+    >>> tk.ik(robot, (1.0, 2.0, 50.0), task="position").status
+    'unreachable'
+    """
+def ik_all(chain: Chain, target: numpy.typing.ArrayLike, *, seed: typing.Any = None, base: typing.Any = None, frame: str | int | None = None, respect_limits: bool = True, images: bool = False, weights: typing.Any = None) -> IkSolutions:
+    """
+    Every configuration of a six-joint arm for a pose, in closed form.
+    
+    For arms with three parallel axes (2, 3, 4 or 3, 4, 5), such as those of Universal Robots, and arms
+    with a spherical wrist (axes 4, 5, 6 meet) or shoulder (1, 2, 3), on a base or not; their axes decide,
+    not their names. Up to eight branches by subproblems after Pieper (1968), Paden (1986), and Elias and
+    Wen (2022), each checked by forward kinematics, and polished where rounded dimensions ask for it.
+    
+    A joint stands at the turn that is within its limits and nearest to the seed's, or without a seed to
+    the middle of its range (0 if it has none). Where a joint is free, at a singularity, it stays there:
+    the last of the wrist (in an arm that is solved from its hand, the first), as far as the elbow reaches
+    if that moves it; joint 1 where the wrist's center is on its axis, joint 2 where it is on that.
+    
+    Parameters
+    ----------
+    chain : Chain
+    target : (4, 4)
+        Pose of the frame in the root.
+    seed : (n,), rad and m, optional
+        Solutions come nearest first. Without it: in a fixed order, by shoulder, then wrist, then elbow,
+        or for a spherical wrist by shoulder, elbow, wrist.
+    base : (3,), optional
+        x, y (m) and theta (rad) of the base, for a chain on one: solutions are for this place.
+    frame : str or int, optional
+        Name (or index) from `frames`, behind the last joint; default: the last, the tool.
+    respect_limits : bool
+        Leave out what is beyond joint limits in every turn.
+    images : bool
+        All turns of all joints that are within limits, not only the nearest. At most 100 000.
+    weights : (n,), optional
+        Of the squared differences in the distance to the seed; default 1.
+    
+    Returns
+    -------
+    IkSolutions
+        Where the arm can't reach the target, the closest it comes (m and rad count alike), marked as
+        not exact; where it only can beyond its limits, nothing; the message says so.
+    
+    Raises
+    ------
+    ValueError
+        If the arm has no closed form here, an argument has a wrong shape or is not finite, the target is
+        not rigid, or the base is missing or beyond its limits.
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> robot = tk.robots.thing()
+    >>> q = np.array([0.0, -1.2, 1.4, -0.6, 1.2, 0.0, 0.3, -0.2, 0.4])
+    >>> solutions = tk.ik_all(robot, robot.fk(q), seed=q, base=q[6:])
+    >>> len(solutions), np.allclose(solutions[0], q, atol=1e-9)
+    (8, True)
+    >>> tk.ik_all(robot, tk.transform(xyz=(0, 0, 3)), base=(0, 0, 0)).status
+    'unreachable'
     """
 def null_space(J: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
     """
