@@ -12,6 +12,7 @@ Style = dict[str, Any]
 DASHED = (0, (3, 1.5))
 STYLES: dict[str, Style] = {
     "thing_kin": {"color": "#08519c", "lw": 2.6},
+    "thing_kin_alone": {"color": "#6baed6", "lw": 1.8},
     "thing_kin_all": {"color": "#08519c", "lw": 2.0, "ls": DASHED},
     "thing_kin_kdl": {"color": "0.45", "lw": 1.6, "ls": DASHED},
     "rtb": {"color": "#2ca02c", "lw": 1.8},

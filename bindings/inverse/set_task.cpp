@@ -192,7 +192,7 @@ np.float64(1.0)
 }  // namespace
 
 void bind_set_task(py::module_& m) {
-  py::class_<SetTask, Task, std::shared_ptr<SetTask>>(
+  const py::class_<SetTask, Task, std::shared_ptr<SetTask>> base(
       m, "SetTask",
       R"(What TaskPriority with limits can be asked to keep in an interval: the base of those tasks.
 

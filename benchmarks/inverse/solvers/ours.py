@@ -32,22 +32,38 @@ class Ours(Solver):
 @register
 class Numerical(Ours):
     name = "thing_kin"
-    title = "thing_kin.ik"
-    note = "its defaults, a tolerance of 1e-5 m and rad"
+    title = "thing_kin.NumericIk"
+    note = "its defaults, a tolerance of 1e-5 m and rad; a UR restarts from its closed form"
+    closed_form = True
+
+    def __init__(self, arm: Arm) -> None:
+        super().__init__(arm)
+        self.solver = self.tk.NumericIk(
+            self.chain,
+            position_tolerance=POSITION_TOLERANCE,
+            rotation_tolerance=ROTATION_TOLERANCE,
+            closed_form=self.closed_form,
+        )
 
     @staticmethod
     def available() -> bool:
-        return offers("ik")
+        return offers("NumericIk")
 
     def solve(self, x: Any) -> Any:
         T, q0, _ = x
-        return self.tk.ik(
-            self.chain,
-            T,
-            seed=q0,
-            position_tolerance=POSITION_TOLERANCE,
-            rotation_tolerance=ROTATION_TOLERANCE,
-        )
+        return self.solver.solve(T, q0)
+
+
+@register
+class NumericalAlone(Numerical):
+    name = "thing_kin_alone"
+    title = "the same, alone"
+    note = "the same with closed_form=False, for arms that have one"
+    closed_form = False
+
+    @staticmethod
+    def can(arm: Arm) -> bool:
+        return arm.n == 6
 
 
 @register

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "damped_step.hpp"
 #include "thing_kin/kinematics/manipulability.hpp"
@@ -23,11 +24,10 @@ constexpr int kReturn = 6;
 
 }  // namespace
 
-IkMeasure::IkMeasure(const IkProblem& problem, IkObjective objective,
-                     const JointVector& seed) noexcept
+IkMeasure::IkMeasure(const IkProblem& problem, IkObjective objective, JointVector seed) noexcept
     : problem_(problem),
       objective_(objective),
-      middle_(seed),
+      middle_(std::move(seed)),
       mobility_(problem.mobility),
       counts_(JointVector::Ones(problem.chain.dof())) {
   if (objective != IkObjective::kLimits) {

@@ -10,7 +10,7 @@ namespace thing_kin {
 class IkMeasure {
  public:
   /// seed is read by kSeed alone.
-  IkMeasure(const IkProblem& problem, IkObjective objective, const JointVector& seed) noexcept;
+  IkMeasure(const IkProblem& problem, IkObjective objective, JointVector seed) noexcept;
 
   double operator()(const JointVector& q) const noexcept;
 

@@ -35,7 +35,7 @@ struct TaskPriorityOptions {
   /// Largest |dq_j| of a step, one a joint; empty: none.
   std::optional<JointVector> step_limit;
   /// Bounded least squares instead of the schemes' formulas; empty: only step_limit is kept.
-  std::optional<LimitOptions> limits = {};
+  std::optional<LimitOptions> limits = std::nullopt;
 
   /// What suits limits: the recursion that bounded least squares is, damped.
   static TaskPriorityOptions limited(LimitOptions limits);
