@@ -82,7 +82,7 @@ void PoseResidual::evaluate(const SE3& T, Value& value) const noexcept {
 }
 
 Eigen::Vector3d PoseResidual::way_from(const Eigen::Vector3d& translation) const noexcept {
-  const Eigen::Vector3d way = target_.translation - translation;
+  Eigen::Vector3d way = target_.translation - translation;
   if (has_all_of_position()) {
     return way;
   }

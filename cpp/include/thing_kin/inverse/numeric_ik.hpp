@@ -30,9 +30,9 @@ struct IkOptions {
   JointVector joint_weights;  ///< cost of each joint's motion, [1e-6, 1e6]; empty: 1
   JointVector max_step;       ///< how far each joint may be from the seed; empty: anywhere
   IkObjective objective = IkObjective::kNone;
-  bool nearest = false;       ///< search on for the solution nearest to the seed
-  int max_iterations = 3000;  ///< of all attempts together
-  int max_restarts = 100;
+  bool nearest = false;        ///< search on for the solution nearest to the seed
+  int max_iterations = 12000;  ///< of all attempts together
+  int max_restarts = 400;
   double deadline = std::numeric_limits<double>::infinity();  ///< s
   std::uint64_t rng = 0;                                      ///< which restarts are tried
   bool closed_form = true;  ///< restart from the closed form's solutions, where there is one
