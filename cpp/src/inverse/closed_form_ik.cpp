@@ -302,16 +302,17 @@ class ClosedFormRun {
   void write(ClosedFormSolutions& out) noexcept {
     std::array<int, kMost> order{};
     std::array<double, kMost> far{};
-    for (int i = 0; i < count_; ++i) {
-      order[static_cast<std::size_t>(i)] = i;
+    for (int i = 0; i < count_; ++i) {  // each behind those that are as near
       far[static_cast<std::size_t>(i)] = options_.seed != nullptr ? to_seed(i) : 0.0;
-    }
-    if (options_.seed != nullptr) {
-      std::sort(order.begin(), order.begin() + count_, [&](int a, int b) {
-        const double of_a = far[static_cast<std::size_t>(a)];
-        const double of_b = far[static_cast<std::size_t>(b)];
-        return of_a < of_b || (of_a == of_b && a < b);
-      });
+      int place = i;
+      for (; place > 0; --place) {
+        const int before = order[static_cast<std::size_t>(place - 1)];
+        if (far[static_cast<std::size_t>(before)] <= far[static_cast<std::size_t>(i)]) {
+          break;
+        }
+        order[static_cast<std::size_t>(place)] = before;
+      }
+      order[static_cast<std::size_t>(place)] = i;
     }
     out.count = count_;
     for (int i = 0; i < count_; ++i) {
