@@ -143,7 +143,7 @@ Hierarchy random_hierarchy(test::Generator& rng, int kind) {
   }
   if (kind % 7 == 5) {
     h.levels[0].A.row(0).setZero();
-    h.levels[1].A.row(1) = h.levels[1].A.row(0);
+    h.levels[1].A.bottomRows(1) = h.levels[1].A.topRows(1).eval();
   }
   return h;
 }
