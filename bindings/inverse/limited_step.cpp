@@ -1,5 +1,7 @@
 #include "thing_kin/inverse/limited_step.hpp"
 
+#include <utility>
+
 #include "array.hpp"
 #include "bindings.hpp"
 
@@ -24,7 +26,7 @@ py::list for_each_level(const LimitedStep& step, Get get) {
 
 py::list kinds(const LimitedStep& step) {
   py::list list;
-  for (std::size_t j = 0; j < static_cast<std::size_t>(step.dq.size()); ++j) {
+  for (std::size_t j = 0; std::cmp_less(j, step.dq.size()); ++j) {
     list.append(py::str(to_string(step.kinds[j])));
   }
   return list;

@@ -268,7 +268,7 @@ class ClosedFormRun {
   }
 
   bool same(int a, int b, double tolerance) noexcept {
-    return std::all_of(ik_.joint_.begin(), ik_.joint_.end(), [&](int joint) {
+    return std::ranges::all_of(ik_.joint_, [&](int joint) {
       return std::abs(closed_form::turned_near(0.0, q(a)[joint] - q(b)[joint])) <= tolerance;
     });
   }

@@ -151,7 +151,7 @@ std::string ClosedFormIk::obstacle(const Chain& chain, int frame) {
   if (builder.build(misfit)) {
     return {};
   }
-  if (std::any_of(misfit.begin(), misfit.end(), [](const Misfit& m) { return m.degenerate; })) {
+  if (std::ranges::any_of(misfit, [](const Misfit& m) { return m.degenerate; })) {
     return "an arm that is singular everywhere";
   }
   std::string why = "axes 2, 3, 4 off parallel by " + text(misfit[0].angle);

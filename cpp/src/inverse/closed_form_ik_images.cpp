@@ -48,7 +48,7 @@ std::vector<ClosedFormSolution> by_distance(const std::vector<ClosedFormSolution
   for (std::size_t i = 0; i < all.size(); ++i) {
     order.emplace_back(squared_distance(all[i].q, options), i);
   }
-  std::sort(order.begin(), order.end());
+  std::ranges::sort(order);
   std::vector<ClosedFormSolution> sorted;
   sorted.reserve(all.size());
   for (const auto& [distance, i] : order) {

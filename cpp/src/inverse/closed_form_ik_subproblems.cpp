@@ -114,9 +114,9 @@ QuarticRoots solve_quartic(const Eigen::Matrix2d& N, const Eigen::Vector2d& n) n
   const Complex p3(0.5 * f.a1, -0.5 * f.b1);
   std::array<Complex, 4> z = quartic({std::conj(p4), std::conj(p3), f.a0, p3, p4});
   const auto off = [](const Complex& root) { return std::abs(std::log(std::abs(root))); };
-  std::sort(z.begin(), z.end(),
-            [](const Complex& a, const Complex& b) { return std::arg(a) < std::arg(b); });
-  const bool any = std::any_of(z.begin(), z.end(), [&](auto& r) { return off(r) < kNearCircle; });
+  std::ranges::sort(z,
+                    [](const Complex& a, const Complex& b) { return std::arg(a) < std::arg(b); });
+  const bool any = std::ranges::any_of(z, [&](auto& r) { return off(r) < kNearCircle; });
   for (const Complex& root : z) {
     if (!any || off(root) < kNearCircle) {
       add(f, size, refined(f, std::arg(root)), roots);

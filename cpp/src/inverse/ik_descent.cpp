@@ -36,7 +36,7 @@ bool descend(const IkProblem& problem, int most, IkPoint& point, int& iterations
   double best = std::numeric_limits<double>::infinity();
   std::array<double, kLeash> earlier;
   earlier.fill(best);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(most); ++i) {
+  for (std::size_t i = 0; std::cmp_less(i, most); ++i) {
     ++iterations;
     place_joints(chain, q.data(), posture);
     residual.evaluate(frame_pose(chain, posture, frame), value);

@@ -1,6 +1,7 @@
 #include "thing_kin/inverse/ik_result.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "thing_kin/core/error.hpp"
 
@@ -21,7 +22,7 @@ std::string distance(const IkResult& result) {
 
 std::string joints_at_limits(const Chain& chain, const ActiveLimits& active) {
   std::string list;
-  for (std::size_t j = 0; j < static_cast<std::size_t>(chain.dof()); ++j) {
+  for (std::size_t j = 0; std::cmp_less(j, chain.dof()); ++j) {
     if (active[j] != 0) {
       list.append(list.empty() ? "joint " : ", joint ");
       list.append(quoted(chain.joint_names()[j]));

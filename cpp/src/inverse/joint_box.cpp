@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace thing_kin {
 
@@ -22,7 +23,7 @@ double within(double from, double step) noexcept {
 }  // namespace
 
 JointBox::JointBox(const Chain& chain) noexcept : lower_(chain.lower()), upper_(chain.upper()) {
-  for (std::size_t j = 0; j < static_cast<std::size_t>(chain.dof()); ++j) {
+  for (std::size_t j = 0; std::cmp_less(j, chain.dof()); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
     rotary_[j] = thing_kin::is_rotary(chain.joint_types()[j]);
     endless_[j] = rotary_[j] && upper_[i] - lower_[i] >= kTurn;

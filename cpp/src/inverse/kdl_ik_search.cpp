@@ -137,7 +137,7 @@ IkStatus KdlIkSearch::reason() const noexcept {
   }
   const ActiveLimits active = active_limits(solver_.chain_, best_);
   const bool is_at_a_limit =
-      std::any_of(active.begin(), active.end(), [](std::int8_t side) { return side != 0; });
+      std::ranges::any_of(active, [](std::int8_t side) { return side != 0; });
   return beyond_limits_ && is_at_a_limit ? IkStatus::kLimited : IkStatus::kBudget;
 }
 

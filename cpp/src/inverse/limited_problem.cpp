@@ -1,6 +1,7 @@
 #include "limited_problem.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "thing_kin/linalg/hierarchical_qp.hpp"
 #include "thing_kin/linalg/small_product.hpp"
@@ -131,7 +132,7 @@ void explain(const LimitedProblem& problem, LimitedStep& step) noexcept {
     step.kinds[j] = side == 0 ? LimitKind::kNone : side > 0 ? box.upper_kind[j] : box.lower_kind[j];
   }
   step.count = problem.count;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(problem.count); ++i) {
+  for (std::size_t i = 0; std::cmp_less(i, problem.count); ++i) {
     const LimitedProblem::Level& from = problem.levels[i];
     LimitedStep::Level& level = step.levels[i];
     const SmallVector moved = from.value.jacobian * step.dq;

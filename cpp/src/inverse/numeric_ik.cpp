@@ -56,7 +56,7 @@ NumericIk::NumericIk(const Chain& chain, int frame, IkOptions options)
       length_(reach_.length() > kLeastLength ? kLengthPerRadian * reach_.length() : 1.0),
       samples_(chain.dof(), options_.rng) {
   const auto& weight = options_.weights.weight;
-  const bool whole_pose = std::find(weight.begin(), weight.end(), 0.0) == weight.end();
+  const bool whole_pose = std::ranges::find(weight, 0.0) == weight.end();
   if (options_.closed_form && whole_pose && !chain.base_joints()) {
     closed_form_ = ClosedFormIk::find(chain, frame);
   }
