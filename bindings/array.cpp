@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "thing_kin/core/error.hpp"
 #include "thing_kin/core/finite.hpp"
@@ -145,7 +146,7 @@ const double* plain_data(py::handle argument, std::initializer_list<py::ssize_t>
   constexpr int kReadable =
       py::detail::npy_api::NPY_ARRAY_C_CONTIGUOUS_ | py::detail::npy_api::NPY_ARRAY_ALIGNED_;
   const bool plain = array->descr == float64 && (array->flags & kReadable) == kReadable &&
-                     array->nd == static_cast<int>(shape.size()) &&
+                     std::cmp_equal(array->nd, shape.size()) &&
                      std::equal(shape.begin(), shape.end(), array->dimensions);
   return plain ? reinterpret_cast<const double*>(array->data) : nullptr;
 }

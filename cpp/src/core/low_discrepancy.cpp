@@ -1,6 +1,7 @@
 #include "thing_kin/core/low_discrepancy.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace thing_kin {
 
@@ -34,7 +35,7 @@ LowDiscrepancy::LowDiscrepancy(int dimensions, std::uint64_t seed) noexcept {
   const double ratio = 1.0 / generalized_golden_ratio(dimensions);
   double alpha = 1.0;
   std::uint64_t state = seed;
-  for (std::size_t j = 0; j < static_cast<std::size_t>(dimensions); ++j) {
+  for (std::size_t j = 0; std::cmp_less(j, dimensions); ++j) {
     alpha *= ratio;
     alpha_[j] = as_digits(alpha);
     start_[j] = mixed(state);

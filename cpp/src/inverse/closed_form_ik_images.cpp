@@ -45,6 +45,7 @@ double squared_distance(const JointVector& q, const ClosedFormOptions& options) 
 std::vector<ClosedFormSolution> by_distance(const std::vector<ClosedFormSolution>& all,
                                             const ClosedFormOptions& options) {
   std::vector<std::pair<double, std::size_t>> order;
+  order.reserve(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
     order.emplace_back(squared_distance(all[i].q, options), i);
   }

@@ -61,9 +61,9 @@ void JointBox::wind_towards(const JointVector& seed, JointVector& q) const noexc
     }
     // A limit may be in the way of the nearest image, but since the seed is within the limits not
     // of the one before it.
-    double turns = std::round((seed[j] - q[j]) / kTurn);
-    for (int i = 0; i < 2 && turns != 0.0; ++i, turns -= std::copysign(1.0, turns)) {
-      const double x = q[j] + turns * kTurn;
+    const double turns = std::round((seed[j] - q[j]) / kTurn);
+    for (const double less : {0.0, 1.0}) {
+      const double x = q[j] + (turns - std::copysign(less, turns)) * kTurn;
       if (x >= lower_[j] && x <= upper_[j]) {
         q[j] = x;
         break;

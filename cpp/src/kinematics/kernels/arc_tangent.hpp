@@ -7,7 +7,7 @@ namespace thing_kin::THING_KIN_LEVEL {
 /// Angle of (cosine, sine), of any length, in [-pi, pi], within about two units in the last place;
 /// 0 for (0, 0).
 inline Lanes arc_tangent(const Lanes& sine, const Lanes& cosine) {
-  constexpr double kPi = 0x1.921fb54442d18p+1;
+  constexpr double kPi = 0x1.921fb54442d18p+1;  // NOLINT(modernize-use-std-numbers): no includes
   constexpr double kTangentOfEighth = 0x1.a827999fcef32p-2;  // tan(pi/8)
   constexpr double kTiny = 0x1p-1000;
 
@@ -35,7 +35,7 @@ inline Lanes arc_tangent(const Lanes& sine, const Lanes& cosine) {
   // Then to the right octant, quadrant and half.
   const Lanes from_axis = select(diagonal, splat(kPi / 4), splat(0.0)) + (t + rest);
   const Lanes acute = select(steep, kPi / 2 - from_axis, from_axis);
-  constexpr long long kSign = static_cast<long long>(0x8000000000000000ULL);
+  constexpr auto kSign = static_cast<long long>(0x8000000000000000ULL);
   const Lanes upper = select(cosine < 0.0, kPi - acute, acute);
   return as_numbers(as_bits(upper) | (as_bits(sine) & kSign));
 }
