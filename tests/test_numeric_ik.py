@@ -114,6 +114,32 @@ def test_a_row_is_a_call() -> None:
         assert one.message == many.message[i]
 
 
+def test_success_is_what_forward_kinematics_says() -> None:
+    """With tolerances of rounding size the solver's own errors and the verifying ones differ."""
+    robot = tk.robots.thing()
+    q = robot.random(500, rng=25)
+    tolerance = 3e-16
+    results = tk.ik(
+        robot,
+        robot.fk(q),
+        seed=q,
+        position_tolerance=tolerance,
+        rotation_tolerance=tolerance,
+        max_restarts=0,
+    )
+    met = (results.position_error <= tolerance) & (results.rotation_error <= tolerance)
+    np.testing.assert_array_equal(results.success, met)
+    assert 0 < np.count_nonzero(met) < 500  # the tolerance does divide them
+
+
+def test_hopeless_descents_are_given_up() -> None:
+    """Half of the descents of this arm stall: no more than a few iterations go into one."""
+    panda = ROBOTS["panda"]()
+    results = tk.ik(panda, panda.fk(panda.random(300, rng=26)), seed=panda.random(300, rng=27))
+    assert results.restarts.sum() > 150
+    assert np.sum(results.iterations) / np.sum(results.restarts + 1) < 12.0
+
+
 def test_rng_chooses_the_restarts() -> None:
     arm = ROBOTS["panda"]()
     T = arm.fk(arm.random(rng=9))
@@ -342,15 +368,16 @@ class TestFailure:
         reach = np.linalg.norm(T[:3, 3]) - result.position_error
         assert reach < 1.3  # links of 0.425, 0.39, ... m
 
+    @pytest.mark.parametrize("closed_form", [True, False])
     @pytest.mark.parametrize("distance", [1.2, 2.0, 8.0])
-    def test_no_other_solver_comes_nearer(self, distance: float) -> None:
+    def test_no_other_solver_comes_nearer(self, distance: float, closed_form: bool) -> None:
         arm = tk.robots.ur5()
         rng = np.random.default_rng(20)
         turn = Rotation.random(random_state=1).as_matrix()
         T = tk.transform(xyz=distance * np.array([0.6, -0.64, 0.48]))
         T[:3, :3] = turn
         length = 0.3 * link_lengths(arm)
-        result = tk.ik(arm, T)
+        result = tk.ik(arm, T, closed_form=closed_form)
 
         def residual(q: Vector) -> Vector:
             error = tk.pose_error(arm.fk(q), T)
