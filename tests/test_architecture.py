@@ -21,6 +21,7 @@ LAYERS: dict[str, tuple[str, ...]] = {
     "model": ("lie",),
     "kinematics": ("model", "linalg"),
     "inverse": ("kinematics",),
+    "optimization": ("inverse",),
 }
 KDL_SOURCE = CPP / "src" / "model" / "kdl_chain.cpp"
 URDF_SOURCE = CPP / "src" / "model" / "urdf.cpp"
