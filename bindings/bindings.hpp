@@ -52,4 +52,6 @@ void bind_closed_form_ik(py::module_& m);
 void bind_ik_result(py::module_& m);
 void bind_numeric_ik(py::module_& m);
 
+void bind_pose_plan(py::module_& m);
+
 }  // namespace thing_kin::python

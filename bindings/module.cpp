@@ -51,4 +51,6 @@ PYBIND11_MODULE(_core, m) {
   bind_closed_form_ik(m);
   bind_ik_result(m);
   bind_numeric_ik(m);
+
+  bind_pose_plan(m);
 }

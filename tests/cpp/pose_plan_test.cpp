@@ -10,6 +10,7 @@ namespace thing_kin {
 namespace {
 
 using test::Generator;
+using test::random_vector;
 using test::uniform;
 
 struct Instance {
