@@ -51,4 +51,13 @@ PYBIND11_MODULE(_core, m) {
   bind_closed_form_ik(m);
   bind_ik_result(m);
   bind_numeric_ik(m);
+
+  py::module_ terms = m.def_submodule("terms", "What problems are made of.");
+  bind_term_recipe(terms);
+  bind_terms_pose(terms);
+  bind_terms_orientation_cone(terms);
+  bind_terms_base(terms);
+  bind_terms_clearance(terms);
+  bind_terms_dexterity(terms);
+  bind_terms_joints(terms);
 }
