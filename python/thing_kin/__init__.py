@@ -12,7 +12,7 @@ Examples
 (6, 9)
 """
 
-from thing_kin import lie, robots
+from thing_kin import lie, robots, terms
 from thing_kin._core import (
     DH,
     BaseObstacleTask,
@@ -113,6 +113,7 @@ __all__ = [
     "robots",
     "selectively_damped_step",
     "simd_level",
+    "terms",
     "transform",
     "use_simd_level",
 ]
