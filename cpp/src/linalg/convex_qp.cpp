@@ -13,6 +13,10 @@ namespace {
 // A side counts as kept within this fraction of the numbers it is made of.
 constexpr double kKept = 64 * kEpsilon;
 
+// Where more sides meet than there are variables, rounding makes them miss each other: what can't be
+// kept within this fraction is infeasible, what can counts as kept.
+constexpr double kMissed = 1e-10;
+
 // What is left of a form beside the active ones is rounding below this fraction.
 constexpr double kDependent = 1e-12;
 
@@ -80,6 +84,7 @@ double dot(const FormsView& forms, int i, const SmallVector& x) noexcept {
 bool ConvexQp::begin(const SmallMatrix& H, const SmallVector& g) noexcept {
   active_ = 0;
   iterations_ = 0;
+  slack_ = kKept;
   const Eigen::Index k = g.size();
   R_.resize(k, k);
   u_.resize(k);
@@ -117,7 +122,7 @@ double ConvexQp::violation(const FormsView& forms, const double* lower, const do
     const double bound = std::abs(below ? lower[i] : upper[i]);
     const bool fixed = lower[i] == upper[i];
     const bool worse = fixed == equality ? out > most : fixed;
-    if (worse && out > kKept * (bound + size) && !is_active(i)) {
+    if (worse && out > slack_ * (bound + size) && !is_active(i)) {
       most = out;
       equality = fixed;
       side = {i, below ? 1.0 : -1.0, fixed};
@@ -166,7 +171,9 @@ ConvexQp::Status ConvexQp::take_in(const FormsView& forms, const Side& side,
     }
     const bool dependent = active_ == k || left <= kDependent * kDependent * all;
     if (dependent && block < 0) {
-      return Status::kInfeasible;
+      const double missed = short_of / (1.0 + x_.cwiseAbs().maxCoeff());
+      slack_ = std::max(slack_, 2.0 * missed);
+      return missed <= kMissed ? Status::kOptimal : Status::kInfeasible;
     }
     const double primal = dependent ? std::numeric_limits<double>::infinity() : short_of / left;
     const double step = std::min(primal, dual);
@@ -183,7 +190,8 @@ ConvexQp::Status ConvexQp::take_in(const FormsView& forms, const Side& side,
       short_of -= step * left;
     }
     if (primal <= dual) {
-      return append(side, multiplier) ? Status::kOptimal : Status::kInfeasible;
+      append(side, multiplier);
+      return Status::kOptimal;
     }
     drop(block);
   }
@@ -191,7 +199,7 @@ ConvexQp::Status ConvexQp::take_in(const FormsView& forms, const Side& side,
 }
 
 // d = J^T a becomes the last column of R; rotations of J make its rest zero.
-bool ConvexQp::append(const Side& side, double multiplier) noexcept {
+void ConvexQp::append(const Side& side, double multiplier) noexcept {
   const Eigen::Index k = x_.size();
   for (Eigen::Index c = k - 1; c > active_; --c) {
     const Rotation rotation(d_[c - 1], d_[c]);
@@ -206,7 +214,6 @@ bool ConvexQp::append(const Side& side, double multiplier) noexcept {
   sides_[static_cast<std::size_t>(active_)] = side;
   u_[active_] = multiplier;
   ++active_;
-  return true;
 }
 
 void ConvexQp::drop(int i) noexcept {

@@ -54,7 +54,7 @@ class ConvexQp {
                    Side& side) const noexcept;
   bool is_active(int form) const noexcept;
   Status take_in(const FormsView& forms, const Side& side, double short_of) noexcept;
-  bool append(const Side& side, double multiplier) noexcept;
+  void append(const Side& side, double multiplier) noexcept;
   void drop(int i) noexcept;
 
   SmallMatrix J_;  // H^-1 = J J^T; the first active() columns span H^-1 times the active forms
@@ -64,6 +64,7 @@ class ConvexQp {
   int active_ = 0;
   int iterations_ = 0;
   int most_ = 0;
+  double slack_ = 0.0;  // of the sides, as a fraction
 };
 
 }  // namespace thing_kin
