@@ -128,7 +128,7 @@ Pairs self_collision_pairs(const Chain& robot, const std::vector<LinkSphere>& sp
     }
   }
   constexpr int kPostures = 256;
-  constexpr int kTooOften = 243;  // 95 %
+  constexpr int kTooOften = kPostures / 4;
   const std::vector<int> counts = overlaps(robot, all, candidates, kPostures);
   Pairs pairs;
   for (std::size_t i = 0; i < candidates.size(); ++i) {

@@ -37,7 +37,8 @@ LinkSpheres spheres_along_links(const Chain& robot, double radius, double spacin
 /// The pairs that may meet and need not: all, but of
 /// - one link or neighboring links (those with at most one joint between them);
 /// - spheres that cannot meet, by the triangle inequality over the links between them;
-/// - spheres that overlap at 95 % of 256 postures, spread evenly within the limits, or more.
+/// - spheres that overlap in a quarter or more of 256 postures, spread evenly within the limits:
+///   too near each other along the chain for balls to tell.
 /// A joint without limits takes every angle, or every place within a meter.
 std::vector<std::pair<int, int>> self_collision_pairs(const Chain& robot,
                                                       const std::vector<LinkSphere>& spheres);
