@@ -52,4 +52,7 @@ void bind_closed_form_ik(py::module_& m);
 void bind_ik_result(py::module_& m);
 void bind_numeric_ik(py::module_& m);
 
+void bind_path_plan(py::module_& m);
+void bind_path_follower(py::module_& m);
+
 }  // namespace thing_kin::python

@@ -51,4 +51,7 @@ PYBIND11_MODULE(_core, m) {
   bind_closed_form_ik(m);
   bind_ik_result(m);
   bind_numeric_ik(m);
+
+  bind_path_plan(m);
+  bind_path_follower(m);
 }

@@ -10,8 +10,8 @@ namespace thing_kin {
 
 namespace {
 
-constexpr double kToBoundary = 0.995;   // how much of the way to the first bound a step may go
-constexpr double kGapTolerance = 1e-11; // of complementarity, beside a part of the decrease
+constexpr double kToBoundary = 0.995;    // how much of the way to the first bound a step may go
+constexpr double kGapTolerance = 1e-11;  // of complementarity, beside a part of the decrease
 constexpr double kRelativeGap = 1e-6;
 constexpr double kDualTolerance = 1e-10;
 
@@ -228,8 +228,8 @@ void StagewiseQp::direction() noexcept {
 double StagewiseQp::longest_step() const noexcept {
   double rate = 0.0;  // the reciprocal of the way to the first bound
   for (const Row& row : rows_) {
-    rate = std::max({rate, -row.dw / row.w, -row.ds / row.s, -row.dz / row.z,
-                     row.dz / (row.rho - row.z)});
+    rate = std::max(
+        {rate, -row.dw / row.w, -row.ds / row.s, -row.dz / row.z, row.dz / (row.rho - row.z)});
   }
   return rate > 0.0 ? 1.0 / rate : 1e300;
 }

@@ -43,7 +43,7 @@ class SegmentScan {
 
  private:
   void descend(const Point& a, const Point& b, double tolerance, int depth, Point& best) const {
-    constexpr int kDeepest = 40;
+    constexpr int kDeepest = 30;
     const double h = b.t - a.t;
     // Two tangents; below both, and by curvature_ h^2/2 lower, there is nothing.
     double bound = std::min(a.value, b.value);
@@ -54,10 +54,12 @@ class SegmentScan {
         meet = (b.value - a.value + a.slope * a.t - b.slope * b.t) / difference;
         meet = std::clamp(meet, a.t, b.t);
       }
-      bound = std::min(bound, std::max(a.value + a.slope * (meet - a.t),
-                                       b.value + b.slope * (meet - b.t)));
+      bound = std::min(
+          bound, std::max(a.value + a.slope * (meet - a.t), b.value + b.slope * (meet - b.t)));
     }
-    if (bound - 0.5 * curvature_ * h * h >= -tolerance || depth == kDeepest) {
+    // Where it is below, its depth need not be known any better than by a hundredth.
+    const double enough = std::min(-tolerance, best.value - 0.01 * std::abs(best.value));
+    if (bound - 0.5 * curvature_ * h * h >= enough || depth == kDeepest) {
       return;
     }
     const Point middle = at(std::clamp(meet, a.t + 0.1 * h, b.t - 0.1 * h));

@@ -9,7 +9,7 @@ namespace thing_kin {
 
 /// A constraint that a path misses.
 struct PathMiss {
-  int waypoint = -1;  ///< or the first of the segment's two
+  int waypoint = -1;    ///< or the first of the segment's two
   double amount = 0.0;  ///< m or rad
   std::string constraint;
 };

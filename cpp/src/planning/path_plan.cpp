@@ -65,11 +65,7 @@ class Planner {
  public:
   Planner(const PathProblem& problem, const std::vector<PathGoal>& goals, const JointVector& seed,
           const std::vector<JointVector>& warm_start, const PathOptions& options)
-      : problem_(problem),
-        goals_(goals),
-        seed_(seed),
-        warm_start_(warm_start),
-        options_(options) {}
+      : problem_(problem), goals_(goals), seed_(seed), warm_start_(warm_start), options_(options) {}
 
   PathPlan run() {
     const auto start = std::chrono::steady_clock::now();
@@ -97,8 +93,8 @@ class Planner {
     IkOptions nearest;
     nearest.nearest = true;
     nearest.max_restarts = 40;
-    const IkResult result = NumericIk(problem_.chain(), problem_.frame(), nearest)
-                                .solve(goals_[0].pose, seed_.data());
+    const IkResult result =
+        NumericIk(problem_.chain(), problem_.frame(), nearest).solve(goals_[0].pose, seed_.data());
     first_ = result.q;
     if (result.success()) {
       return true;
@@ -164,8 +160,7 @@ class Planner {
     }
     judge(plan);
     plan.iterations += plan_.iterations;
-    if (plan_.q.empty() || plan.success ||
-        plan.failed_waypoint > plan_.failed_waypoint) {
+    if (plan_.q.empty() || plan.success || plan.failed_waypoint > plan_.failed_waypoint) {
       plan_ = std::move(plan);
     } else {
       plan_.iterations = plan.iterations;
@@ -248,10 +243,9 @@ class Planner {
       plan.dexterity[k] = std::exp(log_dexterity_at(problem_, plan.q[k]));
     }
     plan.objective = path_objective(problem_, plan.q, seed_);
-    const std::vector<PathMiss> misses =
-        check_path(problem_, goals_, plan.q,
-                   {options_.position_tolerance, options_.rotation_tolerance},
-                   options_.constraint_tolerance, plan.constraint_violation);
+    const std::vector<PathMiss> misses = check_path(
+        problem_, goals_, plan.q, {options_.position_tolerance, options_.rotation_tolerance},
+        options_.constraint_tolerance, plan.constraint_violation);
     plan.success = misses.empty() && plan.status != SolveStatus::kInfeasible;
     if (misses.empty()) {
       plan.failed_waypoint = -1;

@@ -21,14 +21,14 @@ using Vector = Eigen::Map<Eigen::VectorXd>;
 using ConstMatrix = Eigen::Map<const Eigen::MatrixXd>;
 using Matrix = Eigen::Map<Eigen::MatrixXd>;
 
-constexpr double kOnPose = 1e-11;            // m and rad: a waypoint is on its pose
+constexpr double kOnPose = 1e-11;  // m and rad: a waypoint is on its pose
 constexpr int kRetractions = 12;
-constexpr double kRetractionDamping = 1e-11; // of J J^T, whose trace is some 10
-constexpr double kWorstDexterity = 30.0;     // log sqrt(kappa/M) is taken for no more: singular
-constexpr double kFirstPointRadius = 1e-6;   // base discs smaller than this are points, m
+constexpr double kRetractionDamping = 1e-11;  // of J J^T, whose trace is some 10
+constexpr double kWorstDexterity = 30.0;      // log sqrt(kappa/M) is taken for no more: singular
+constexpr double kFirstPointRadius = 1e-6;    // base discs smaller than this are points, m
 constexpr double kLeastRadius = 0.02, kMostRadius = 1.0;
 constexpr double kMostPenalty = 1e7;
-constexpr double kStationary = 1e-9;         // relative decrease that is none
+constexpr double kStationary = 1e-9;  // relative decrease that is none
 constexpr double kArmijo = 0.01;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
@@ -47,8 +47,8 @@ PathSolver::PathSolver(const PathProblem& problem, int capacity)
   const auto m = index(m_);
   const auto c = index(clearances_);
   goals_.reserve(most);
-  for (auto* v : {&q_, &trial_, &dq_, &gradient_, &dexterity_gradient_, &lagrangian_,
-                  &linear_multiplier_}) {
+  for (auto* v :
+       {&q_, &trial_, &dq_, &gradient_, &dexterity_gradient_, &lagrangian_, &linear_multiplier_}) {
     v->assign(most * n, 0.0);
   }
   Z_.assign(most * n * m, 0.0);
@@ -78,8 +78,8 @@ void PathSolver::come_from(const double* from) {
 }
 
 void PathSolver::forget() noexcept {
-  for (auto* v : {&linear_multiplier_, &base_multiplier_, &clearance_multiplier_,
-                  &inner_multiplier_}) {
+  for (auto* v :
+       {&linear_multiplier_, &base_multiplier_, &clearance_multiplier_, &inner_multiplier_}) {
     std::ranges::fill(*v, 0.0);
   }
   watched_.clear();
@@ -164,6 +164,15 @@ PathSolver::Merit PathSolver::begin() noexcept {
   return merit_;
 }
 
+double PathSolver::violation_of_first() noexcept {
+  Merit merit;
+  evaluate_waypoint(0, q(0), merit);
+  merit.worst = 0.0;
+  evaluate_waypoint(1, q(1), merit);
+  evaluate_segment(0, q(0), merit);
+  return merit.worst;
+}
+
 PathSolver::Merit PathSolver::evaluate(const double* q) noexcept {
   Merit merit;
   for (int k = 0; k < count(); ++k) {
@@ -173,12 +182,13 @@ PathSolver::Merit PathSolver::evaluate(const double* q) noexcept {
     }
   }
   if (has_origin_ && fixed_ == 0) {
-    merit.objective +=
-        0.5 * square_weights_.dot((ConstVector(q, n_) - origin_).cwiseAbs2().eval());
+    const JointVector way = ConstVector(q, n_) - origin_;
+    merit.objective += 0.5 * square_weights_.dot(way.cwiseAbs2());
   }
   for (const Watched& watched : watched_) {
     const double* a = q + watched.k * n_;
-    const JointVector at = (1.0 - watched.t) * ConstVector(a, n_) + watched.t * ConstVector(a + n_, n_);
+    const JointVector at =
+        (1.0 - watched.t) * ConstVector(a, n_) + watched.t * ConstVector(a + n_, n_);
     Posture posture;
     place_joints(problem_.chain(), at.data(), posture);
     const double d = problem_.clearances().value(posture, at.data(), watched.i) - kMargin;
@@ -224,10 +234,10 @@ void PathSolver::evaluate_waypoint(int k, const double* q, Merit& merit) noexcep
 }
 
 void PathSolver::evaluate_segment(int k, const double* q, Merit& merit) noexcept {
-  const auto step = (ConstVector(q + n_, n_) - ConstVector(q, n_)).eval();
+  const JointVector step = ConstVector(q + n_, n_) - ConstVector(q, n_);
   merit.objective += 0.5 * square_weights_.dot(step.cwiseAbs2());
   for (int j = 0; j < n_; ++j) {
-    const double slack = problem_.max_joint_step[j] - kMargin - std::abs(step[j]);
+    const double slack = step_bound(j) - std::abs(step[j]);
     merit.violation += std::max(0.0, -slack);
     merit.worst = std::max(merit.worst, -slack);
   }
@@ -246,7 +256,7 @@ void PathSolver::evaluate_segment(int k, const double* q, Merit& merit) noexcept
 // its slope.
 PathSolver::Inner PathSolver::inner_minimum(const double* from, const double* to, int i,
                                             double d_from, double d_to) const noexcept {
-  const auto dq = (ConstVector(to, n_) - ConstVector(from, n_)).eval();
+  const JointVector dq = ConstVector(to, n_) - ConstVector(from, n_);
   constexpr double kReach = 2.0;  // m; the check at the end does not rely on it
   Inner best;
   if (d_from + d_to > kReach * dq.lpNorm<1>()) {
@@ -376,8 +386,7 @@ void PathSolver::add_waypoint_rows(int k) noexcept {
     L[base[1]] -= z * g[1];
   }
   for (int i = 0; i < clearances_; ++i) {
-    add_point_row(Kind::kClearance, k, i, 0.0,
-                  clearance_multiplier_[index(k * clearances_ + i)]);
+    add_point_row(Kind::kClearance, k, i, 0.0, clearance_multiplier_[index(k * clearances_ + i)]);
   }
 }
 
@@ -417,13 +426,14 @@ void PathSolver::add_point_row(Kind kind, int k, int i, double t, double z) noex
 }
 
 void PathSolver::add_segment_rows(int k) noexcept {
-  const double near = 2.0 * std::sqrt(static_cast<double>(m_)) * radius_;
+  const double reach = 2.0 * std::sqrt(static_cast<double>(m_)) * radius_;
   for (int j = 0; j < n_; ++j) {
-    const double bound = problem_.max_joint_step[j] - std::min(kMargin, 0.5 * problem_.max_joint_step[j]);
+    const double bound = step_bound(j);
     const double step = q(k + 1)[j] - q(k)[j];
+    const double near = all_rows_ ? reach : std::min(reach, 0.5 * bound);
     for (const double sign : {1.0, -1.0}) {
       const double slack = bound - sign * step;
-      if (!(slack < near)) {
+      if (!(slack < near)) {  // what is left out the merit watches
         continue;
       }
       const int first = std::max(stage(k), 0);
@@ -438,9 +448,8 @@ void PathSolver::add_segment_rows(int k) noexcept {
     }
   }
   for (int i = 0; i < clearances_; ++i) {
-    const Inner inner =
-        inner_minimum(q(k), q(k + 1), i, values_[index(k * clearances_ + i)],
-                      values_[index((k + 1) * clearances_ + i)]);
+    const Inner inner = inner_minimum(q(k), q(k + 1), i, values_[index(k * clearances_ + i)],
+                                      values_[index((k + 1) * clearances_ + i)]);
     if (inner.t > 0.0) {
       add_point_row(Kind::kInner, k, i, inner.t, inner_multiplier_[index(k * clearances_ + i)]);
     }
@@ -451,9 +460,8 @@ void PathSolver::add_rows() noexcept {
   refs_.clear();
   points_.clear();
   for (int k = 0; k < count(); ++k) {
-    Vector(lagrangian_.data() + k * n_, n_) =
-        ConstVector(gradient_.data() + k * n_, n_) -
-        ConstVector(linear_multiplier_.data() + k * n_, n_);
+    Vector(lagrangian_.data() + k * n_, n_) = ConstVector(gradient_.data() + k * n_, n_) -
+                                              ConstVector(linear_multiplier_.data() + k * n_, n_);
   }
   for (int k = 0; k < count(); ++k) {
     add_waypoint_rows(k);
@@ -541,26 +549,50 @@ void PathSolver::add_curvature(bool convex) noexcept {
       project(k, H, qp_.H(stage(k)), convex);
     }
     for (; next < points_.size() && points_[next].k == k; ++next) {
-      if (convex) {
-        continue;
-      }
-      const PointRow& point = points_[next];
-      const JointVector at =
-          (1.0 - point.t) * ConstVector(q(k), n_) + point.t * ConstVector(q(k + 1), n_);
-      Posture posture;
-      place_joints(chain, at.data(), posture);
-      SmallMatrix C = SmallMatrix::Zero(n_, n_);
-      problem_.clearances().add_hessian(posture, at.data(), point.i, -point.z, C);
-      const ConstMatrix Zb(Z(k + 1), n_, m_);
-      project(k + 1, point.t * point.t * C, qp_.H(stage(k + 1)), false);
-      if (k >= fixed_) {
-        const ConstMatrix Za(Z(k), n_, m_);
-        project(k, (1.0 - point.t) * (1.0 - point.t) * C, qp_.H(stage(k)), false);
-        SmallMatrix CZ(n_, m_);
-        CZ.noalias() = C.lazyProduct(Zb);
-        Matrix(qp_.E(stage(k)), m_, m_) +=
-            point.t * (1.0 - point.t) * Za.transpose().lazyProduct(CZ);
-      }
+      add_point_curvature(points_[next], convex);
+    }
+  }
+}
+
+// A clearance's minimum within a segment moves along it: d(q(t)) has the slope s = grad d . dq by
+// t, and at the minimum the second derivative is that at fixed t less ds ds^T/(d^2 d/dt^2).
+void PathSolver::add_point_curvature(const PointRow& point, bool convex) noexcept {
+  const int k = point.k;
+  const JointVector dq = ConstVector(q(k + 1), n_) - ConstVector(q(k), n_);
+  const JointVector at = ConstVector(q(k), n_) + point.t * dq;
+  Posture posture;
+  JointVector gradient;
+  place_joints(problem_.chain(), at.data(), posture);
+  problem_.clearances().gradient(posture, at.data(), point.i, gradient);
+  SmallMatrix C = SmallMatrix::Zero(n_, n_);
+  problem_.clearances().add_hessian(posture, at.data(), point.i, 1.0, C);
+  const JointVector bend = C.lazyProduct(dq);
+  const double curvature = dq.dot(bend);
+  const double share = curvature > 0.0 ? point.z / curvature : 0.0;
+  C *= -point.z;
+  SmallMatrix CZ(n_, m_);
+  SmallVector slopes[2];
+  for (int side = 0; side < 2; ++side) {
+    const double part = side == 0 ? 1.0 - point.t : point.t;
+    const ConstMatrix Zs(Z(k + side), n_, m_);
+    const JointVector ds = part * bend + (side == 0 ? -1.0 : 1.0) * gradient;
+    slopes[side] = Zs.transpose().lazyProduct(ds);
+    if (k + side < fixed_) {
+      continue;
+    }
+    Matrix H(qp_.H(stage(k + side)), m_, m_);
+    H.noalias() += share * slopes[side].lazyProduct(slopes[side].transpose());
+    if (!convex) {
+      CZ.noalias() = C.lazyProduct(Zs);
+      H.noalias() += part * part * Zs.transpose().lazyProduct(CZ);
+    }
+  }
+  if (k >= fixed_) {  // CZ is that of the second side
+    Matrix E(qp_.E(stage(k)), m_, m_);
+    E.noalias() += share * slopes[0].lazyProduct(slopes[1].transpose());
+    if (!convex) {
+      E.noalias() +=
+          point.t * (1.0 - point.t) * ConstMatrix(Z(k), n_, m_).transpose().lazyProduct(CZ);
     }
   }
 }
@@ -584,8 +616,8 @@ double PathSolver::solve_model() noexcept {
 }
 
 void PathSolver::keep_multipliers() noexcept {
-  for (auto* v : {&linear_multiplier_, &base_multiplier_, &clearance_multiplier_,
-                  &inner_multiplier_}) {
+  for (auto* v :
+       {&linear_multiplier_, &base_multiplier_, &clearance_multiplier_, &inner_multiplier_}) {
     std::ranges::fill(*v, 0.0);
   }
   for (int i = 0; i < qp_.rows(); ++i) {
@@ -642,15 +674,18 @@ bool PathSolver::try_steps(double decrease, double longest) noexcept {
         std::swap(q_, trial_);
         std::swap(values_, trial_values_);
         const double moved = alpha * longest;
-        radius_ = alpha < most ? 1.5 * moved : std::max(std::min(radius_, 4.0 * moved), 2.0 * moved);
+        radius_ =
+            alpha < most ? 1.5 * moved : std::max(std::min(radius_, 4.0 * moved), 2.0 * moved);
         radius_ = std::clamp(radius_, kLeastRadius, kMostRadius);
         damping_ = alpha == 1.0 ? (damping_ < 1e-6 ? 0.0 : 0.1 * damping_) : damping_;
+        all_rows_ = alpha < most;
         return true;
       }
     }
     alpha *= 0.4;
   }
   damping_ = std::max(10.0 * damping_, 1e-4);
+  all_rows_ = true;
   return false;
 }
 

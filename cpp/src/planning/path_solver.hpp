@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -75,14 +76,17 @@ class PathSolver {
   Outcome iterate() noexcept;
 
   const Merit& merit() const { return merit_; }
+
+  /// Largest violation of waypoint 1's constraints and of the way to it.
+  double violation_of_first() noexcept;
   double penalty() const { return rho_; }
 
  private:
   enum class Kind : std::uint8_t { kLinear, kStep, kBase, kClearance, kInner, kWatched };
   struct Ref {  // what a row of the quadratic program is
     Kind kind;
-    int k;     // waypoint or segment
-    int i;     // joint, clearance or watched point
+    int k;  // waypoint or segment
+    int i;  // joint, clearance or watched point
     double sign;
   };
   struct Watched {
@@ -94,11 +98,19 @@ class PathSolver {
     double value = 0.0;
   };
 
+  struct PointRow {  // a clearance with a multiplier: at a waypoint (t < 0) or within a segment
+    int k, i;
+    double t, z;
+  };
+
   Merit evaluate(const double* q) noexcept;
   void evaluate_waypoint(int k, const double* q, Merit& merit) noexcept;
   void evaluate_segment(int k, const double* q, Merit& merit) noexcept;
   Inner inner_minimum(const double* from, const double* to, int i, double d_from,
                       double d_to) const noexcept;
+  double step_bound(int j) const noexcept {
+    return problem_.max_joint_step[j] - std::min(kMargin, 0.5 * problem_.max_joint_step[j]);
+  }
   double base_slack(int k, const double* q, double* gradient) const noexcept;
 
   void linearize() noexcept;
@@ -110,6 +122,7 @@ class PathSolver {
   void add_linear(int k, int j, double sign, double slack) noexcept;
   void add_objective() noexcept;
   void add_curvature(bool convex) noexcept;
+  void add_point_curvature(const PointRow& point, bool convex) noexcept;
   void project(int k, const SmallMatrix& H, double* out, bool convex) const noexcept;
   void keep_multipliers() noexcept;
   bool try_steps(double decrease, double longest) noexcept;
@@ -129,22 +142,18 @@ class PathSolver {
 
   std::vector<double> q_, trial_, dq_, Z_;
   std::vector<Jacobian> J_;
-  std::vector<double> values_;                 // clearances at each waypoint of the iterate
+  std::vector<double> values_;  // clearances at each waypoint of the iterate
   std::vector<double> trial_values_;
   std::vector<double> gradient_, dexterity_gradient_, dexterity_hessian_;
-  std::vector<double> lagrangian_;             // gradient of the Lagrangian by q, n a waypoint
-  std::vector<double> linear_multiplier_;      // n a waypoint: gradients of linear rows, weighed
-  std::vector<double> base_multiplier_;        // one a waypoint
-  std::vector<double> clearance_multiplier_;   // C a waypoint
-  std::vector<double> inner_multiplier_;       // C a segment
+  std::vector<double> lagrangian_;            // gradient of the Lagrangian by q, n a waypoint
+  std::vector<double> linear_multiplier_;     // n a waypoint: gradients of linear rows, weighed
+  std::vector<double> base_multiplier_;       // one a waypoint
+  std::vector<double> clearance_multiplier_;  // C a waypoint
+  std::vector<double> inner_multiplier_;      // C a segment
   std::vector<Watched> watched_;
   std::vector<Ref> refs_;
-  std::vector<double> curvature_;              // m x m a waypoint
+  std::vector<double> curvature_;  // m x m a waypoint
   StagewiseQp qp_;
-  struct PointRow {
-    int k, i;
-    double t, z;
-  };
   std::vector<PointRow> points_;
 
   Merit merit_;
@@ -152,6 +161,7 @@ class PathSolver {
   double damping_ = 0.0;
   double radius_ = 0.5;
   double last_decrease_ = 1.0;
+  bool all_rows_ = false;  ///< also those that a step can hardly reach
 };
 
 }  // namespace thing_kin

@@ -101,7 +101,8 @@ class Follower {
     constexpr double kLongest = 0.4;
     Posture posture;
     place_joints(problem_.chain(), q.data(), posture);
-    const Vector6 e = pose_error(frame_pose(problem_.chain(), posture, problem_.frame()), goal.pose);
+    const Vector6 e =
+        pose_error(frame_pose(problem_.chain(), posture, problem_.frame()), goal.pose);
     error_ = e.norm();
     Jacobian J;
     geometric_jacobian(problem_.chain(), posture, problem_.frame(), ReferenceFrame::kWorldAligned,
@@ -175,6 +176,11 @@ std::vector<BaseLine> lines_past_discs(const PathProblem& problem, const BaseLin
     lines.push_back(std::move(entry.second));
   }
   return lines;
+}
+
+bool follow_pose(const PathProblem& problem, const PathGoal& goal, const Eigen::Vector2d* place,
+                 JointVector& q) noexcept {
+  return Follower(problem).settle(goal, place, q);
 }
 
 int follow_poses(const PathProblem& problem, const std::vector<PathGoal>& goals,

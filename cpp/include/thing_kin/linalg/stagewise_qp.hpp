@@ -53,7 +53,8 @@ class StagewiseQp {
   /// Of row i, in [0, rho_i].
   double multiplier(int i) const { return rows_[static_cast<std::size_t>(i)].z; }
 
-  /// The value at p = 0 less that at the solution, without the damping; at least 0 but for rounding.
+  /// The value at p = 0 less that at the solution, without the damping; at least 0 but for
+  /// rounding.
   double decrease() const { return decrease_; }
 
   /// Sum of max(0, -d_i) at p = 0 and at the solution.
@@ -66,9 +67,9 @@ class StagewiseQp {
   struct Row {
     int stage;
     double c, rho;
-    double w, s, z;      ///< d + s, elastic part, multiplier
-    double dw, ds, dz;   ///< their steps
-    double r1, r2, D, d; ///< right-hand sides, weight, a p + b p + c
+    double w, s, z;       ///< d + s, elastic part, multiplier
+    double dw, ds, dz;    ///< their steps
+    double r1, r2, D, d;  ///< right-hand sides, weight, a p + b p + c
   };
 
   template <int M>
@@ -92,11 +93,11 @@ class StagewiseQp {
 
   int m_;
   int stages_ = 0;
-  std::vector<double> H_, g_, E_;       // the problem
-  std::vector<double> S_, W_;           // factor: Cholesky of diagonal blocks, couplings
-  std::vector<double> p_, dp_, rd_;     // iterate, step, dual residual
+  std::vector<double> H_, g_, E_;    // the problem
+  std::vector<double> S_, W_;        // factor: Cholesky of diagonal blocks, couplings
+  std::vector<double> p_, dp_, rd_;  // iterate, step, dual residual
   std::vector<Row> rows_;
-  std::vector<double> coefficients_;    // a and b of each row
+  std::vector<double> coefficients_;  // a and b of each row
   double damping_ = 0.0;
   double decrease_ = 0.0, violation_before_ = 0.0, violation_after_ = 0.0;
   int iterations_ = 0;

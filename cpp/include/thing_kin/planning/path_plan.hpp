@@ -35,9 +35,9 @@ struct PathPlan {
   std::vector<double> rotation_error;  ///< rad
   std::vector<double> dexterity;       ///< sqrt(kappa/M), [M17] (4.33), of the problem's columns
   SolveStatus status = SolveStatus::kBudget;
-  bool success = false;                ///< by a check of its own, whatever the solver says
-  int failed_waypoint = -1;            ///< the first where something is missed by too much
-  std::string failed_constraint;       ///< and what: "pose", "max_joint_step of 'q1'"
+  bool success = false;           ///< by a check of its own, whatever the solver says
+  int failed_waypoint = -1;       ///< the first where something is missed by too much
+  std::string failed_constraint;  ///< and what: "pose", "max_joint_step of 'q1'"
   std::string message;
   double objective = 0.0;
   double constraint_violation = 0.0;  ///< largest, m or rad

@@ -14,9 +14,9 @@ inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 /// What is asked at one waypoint.
 struct PathGoal {
-  SE3 pose;                                          ///< of the frame, in the root
-  Eigen::Vector3d base = Eigen::Vector3d::Zero();    ///< x, y (m) and theta (rad) of the base path
-  double heading_lower = -kUnlimited;                ///< rad, of theta as it stands in q
+  SE3 pose;                                        ///< of the frame, in the root
+  Eigen::Vector3d base = Eigen::Vector3d::Zero();  ///< x, y (m) and theta (rad) of the base path
+  double heading_lower = -kUnlimited;              ///< rad, of theta as it stands in q
   double heading_upper = kUnlimited;
 };
 
