@@ -222,7 +222,7 @@ def worst(case: Case, q: Vector, between: int = 25) -> dict[str, float]:
     spheres = options.get("spheres")
     where = centers(robot, spheres, path) if spheres else np.zeros((1, 0, 3))
     radii = np.array([radius for _, _, radius in spheres.spheres]) if spheres else np.zeros(0)
-    near = 0.0
+    near = np.inf
     for shape in options.get("obstacles", []):
         if isinstance(shape, tk.Disc):
             base = path[:, list(robot.base_joints or ())[:2]]
@@ -232,4 +232,4 @@ def worst(case: Case, q: Vector, between: int = 25) -> dict[str, float]:
     for a, b in spheres.pairs if spheres else ():
         gap = np.linalg.norm(where[:, a] - where[:, b], axis=-1) - radii[a] - radii[b]
         near = min(near, float(gap.min()))
-    return {**found, "clearance": -near}
+    return {**found, "clearance": -near if np.isfinite(near) else 0.0}

@@ -90,6 +90,10 @@ class Checker {
         step(k);
       }
       for (; next < contacts.size() && std::cmp_equal(contacts[next].segment, k); ++next) {
+        largest_ = std::max(largest_, -contacts[next].value);
+        if (!worst_.constraint.empty()) {
+          continue;  // what is amiss at the waypoint itself says more
+        }
         const std::string what = problem_.clearances().describe(contacts[next].clearance);
         note(-contacts[next].value, std::string(what).append(" on the way to the next waypoint"));
       }
