@@ -61,4 +61,7 @@ void bind_terms_clearance(py::module_& terms);
 void bind_terms_dexterity(py::module_& terms);
 void bind_terms_joints(py::module_& terms);
 
+void bind_path_plan(py::module_& m);
+void bind_path_follower(py::module_& m);
+
 }  // namespace thing_kin::python

@@ -61,4 +61,6 @@ PYBIND11_MODULE(_core, m) {
   bind_terms_clearance(terms);
   bind_terms_dexterity(terms);
   bind_terms_joints(terms);
+  bind_path_plan(m);
+  bind_path_follower(m);
 }

@@ -25,6 +25,7 @@ from thing_kin._core import (
     DistanceTask,
     Exact,
     FieldOfViewTask,
+    FollowerStep,
     HalfSpace,
     IkBatchResult,
     IkResult,
@@ -34,6 +35,7 @@ from thing_kin._core import (
     LinkSpheres,
     NumericIk,
     OrientationTask,
+    PathFollower,
     PosePlan,
     PosePlanner,
     PoseTask,
@@ -56,6 +58,7 @@ from thing_kin._core import (
     null_space_projector,
     on_omni_base,
     pinv,
+    plan_path,
     plan_pose,
     pose_error,
     selectively_damped_step,
@@ -63,6 +66,7 @@ from thing_kin._core import (
     transform,
     use_simd_level,
 )
+from thing_kin.path_plan import PathPlan
 
 __all__ = [
     "DH",
@@ -76,6 +80,7 @@ __all__ = [
     "DistanceTask",
     "Exact",
     "FieldOfViewTask",
+    "FollowerStep",
     "HalfSpace",
     "IkBatchResult",
     "IkResult",
@@ -85,6 +90,8 @@ __all__ = [
     "LinkSpheres",
     "NumericIk",
     "OrientationTask",
+    "PathFollower",
+    "PathPlan",
     "PosePlan",
     "PosePlanner",
     "PoseTask",
@@ -108,6 +115,7 @@ __all__ = [
     "null_space_projector",
     "on_omni_base",
     "pinv",
+    "plan_path",
     "plan_pose",
     "pose_error",
     "robots",
