@@ -5,11 +5,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+
+import thing_kin as tk
 from arms import panda
 from oracles import assert_close
 from path_cases import CLEAR, Case, make_case, worst
-
-import thing_kin as tk
 
 THING = tk.robots.thing()
 SEED = np.array([0.0, -1.2, 1.4, -0.6, 1.2, 0.0, 0.0, 0.0, 0.0])
