@@ -54,6 +54,7 @@ from thing_kin._core import (
     transform,
     use_simd_level,
 )
+from thing_kin.trajectory import Trajectory, move_to, time_path
 
 __all__ = [
     "DH",
@@ -80,6 +81,7 @@ __all__ = [
     "Task",
     "TaskPriority",
     "TaskPriorityStep",
+    "Trajectory",
     "WheelLimits",
     "__version__",
     "filter_singular_values",
@@ -87,6 +89,7 @@ __all__ = [
     "ik",
     "ik_all",
     "lie",
+    "move_to",
     "null_space",
     "null_space_projector",
     "on_omni_base",
@@ -95,6 +98,7 @@ __all__ = [
     "robots",
     "selectively_damped_step",
     "simd_level",
+    "time_path",
     "transform",
     "use_simd_level",
 ]
