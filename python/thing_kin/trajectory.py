@@ -416,7 +416,7 @@ def move_to(
     if np.abs(end - begin).max() <= 1e-9:
         return _standing(robot, begin)
     points = _without_blocked(points, limits)
-    motion = straight(*points, *_all_finite(points, limits))
+    motion = straight(points[0], points[1], *_all_finite(points, limits))
     return _trajectory(robot, within_limits(motion, limits), 0.0)
 
 

@@ -109,7 +109,7 @@ def _constraint(toppra: Any, rows: Array, curves: Array, top: Array, grid: Array
             None, None, grid, identical=True,
         )[:5]  # fmt: skip
 
-    class Limits(toppra.constraint.LinearConstraint):  # type: ignore[misc, name-defined]
+    class Limits(toppra.constraint.LinearConstraint):  # type: ignore[misc]
         def __init__(self) -> None:
             super().__init__()
             self.dof = 1
@@ -128,4 +128,4 @@ def _trapezoid(rows: Array, curves: Array, top: Array, grid: Array) -> Array:
     push = 2.0 * np.abs(rows).max(initial=0.0)
     change = 1.0 / push if push > 0 else TOP_RATE
     room = np.minimum(grid - grid[0], grid[-1] - grid)
-    return np.sqrt(np.minimum(cruise, 2.0 * change * room))
+    return np.asarray(np.sqrt(np.minimum(cruise, 2.0 * change * room)))

@@ -91,7 +91,9 @@ def _deviation_bounds(shape: Quintic) -> Array:
     return np.asarray(np.abs(ends).max(axis=(0, 2)))
 
 
-def _with_more_points(s: Array, y: Array, wide: Array, tolerance: float) -> tuple[Array, Array]:
+def _with_more_points(
+    s: Array, y: Array, wide: NDArray[np.bool_], tolerance: float
+) -> tuple[Array, Array]:
     """Points of the chords of the wide pieces: beside a corner where that helps, else halfway."""
     h = np.diff(s)
     turn = np.zeros(len(s))  # change of slope at each knot, of the joint that turns most
@@ -104,8 +106,8 @@ def _with_more_points(s: Array, y: Array, wide: Array, tolerance: float) -> tupl
         near += [s[k + 1] - d for d in [beside[k + 1]] if d < 0.45 * h[k]]
         new += near or [s[k] + 0.5 * h[k]]
     added = np.array(new)
-    k = np.searchsorted(s, added) - 1
-    points = y[k] + ((added - s[k]) / h[k])[:, None] * (y[k + 1] - y[k])
+    at = np.searchsorted(s, added) - 1
+    points = y[at] + ((added - s[at]) / h[at])[:, None] * (y[at + 1] - y[at])
     order = np.argsort(np.concatenate([s, added]), kind="stable")
     return np.concatenate([s, added])[order], np.concatenate([y, points])[order]
 

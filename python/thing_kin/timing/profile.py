@@ -127,7 +127,7 @@ def _samples(profile: Profile, window: float) -> Array:
 def _stretch(ratios: tuple[Any, Any, Any]) -> Array:
     """Slower by this, what has these ratios of velocity, acceleration and jerk is within."""
     velocity, acceleration, jerk = ratios
-    return np.maximum(np.maximum(velocity, np.sqrt(acceleration)), np.cbrt(jerk))
+    return np.asarray(np.maximum(np.maximum(velocity, np.sqrt(acceleration)), np.cbrt(jerk)))
 
 
 def _ratios(

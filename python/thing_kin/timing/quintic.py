@@ -51,7 +51,7 @@ class Quintic:
         return _derivatives(self.coefficients[:, k], h, (x - self.x[k])[:, None] / h, orders)
 
     def grid(self, per_piece: int, orders: int) -> list[Array]:
-        """Sample all pieces at per_piece + 1 points with both ends: (K - 1, per_piece + 1, n) each."""
+        """Sample all pieces, both ends too: (K - 1, per_piece + 1, n) each."""
         h = np.diff(self.x)[:, None, None]
         u = np.linspace(0.0, 1.0, per_piece + 1)[None, :, None]
         return _derivatives(self.coefficients[:, :, None, :], h, u, orders)
