@@ -28,6 +28,7 @@ void bind_chain_description(ChainClass& chain);
 void bind_joint_difference(ChainClass& chain);
 void bind_urdf(ChainClass& chain);
 void bind_omni_base(py::module_& m);
+void bind_obstacle(py::module_& m);
 void bind_robots(py::module_& m);
 
 void bind_posture(ChainClass& chain);
@@ -39,6 +40,7 @@ void bind_analytic_jacobian(ChainClass& chain);
 void bind_manipulability(ChainClass& chain);
 void bind_pose_error(py::module_& m);
 void bind_task_vector(ChainClass& chain);
+void bind_link_spheres(py::module_& m);
 
 void bind_differential_inverse(py::module_& m);
 void bind_task(py::module_& m);
@@ -49,5 +51,7 @@ void bind_task_priority(py::module_& m);
 void bind_closed_form_ik(py::module_& m);
 void bind_ik_result(py::module_& m);
 void bind_numeric_ik(py::module_& m);
+
+void bind_pose_plan(py::module_& m);
 
 }  // namespace thing_kin::python

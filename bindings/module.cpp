@@ -27,6 +27,7 @@ PYBIND11_MODULE(_core, m) {
   bind_joint_difference(chain);
   bind_urdf(chain);
   bind_omni_base(m);
+  bind_obstacle(m);
   py::module_ robots = m.def_submodule("robots", "The robots of the two theses.");
   bind_robots(robots);
 
@@ -39,6 +40,7 @@ PYBIND11_MODULE(_core, m) {
   bind_pose_error(m);
   bind_task_vector(chain);
   bind_analytic_jacobian(chain);
+  bind_link_spheres(m);
 
   bind_differential_inverse(m);
   bind_task(m);
@@ -49,4 +51,6 @@ PYBIND11_MODULE(_core, m) {
   bind_closed_form_ik(m);
   bind_ik_result(m);
   bind_numeric_ik(m);
+
+  bind_pose_plan(m);
 }
