@@ -67,6 +67,7 @@ from thing_kin._core import (
     use_simd_level,
 )
 from thing_kin.path_plan import PathPlan
+from thing_kin.trajectory import Trajectory, move_to, time_path
 
 __all__ = [
     "DH",
@@ -104,6 +105,7 @@ __all__ = [
     "Task",
     "TaskPriority",
     "TaskPriorityStep",
+    "Trajectory",
     "WheelLimits",
     "__version__",
     "filter_singular_values",
@@ -111,6 +113,7 @@ __all__ = [
     "ik",
     "ik_all",
     "lie",
+    "move_to",
     "null_space",
     "null_space_projector",
     "on_omni_base",
@@ -122,6 +125,7 @@ __all__ = [
     "selectively_damped_step",
     "simd_level",
     "terms",
+    "time_path",
     "transform",
     "use_simd_level",
 ]
