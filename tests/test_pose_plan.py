@@ -145,7 +145,7 @@ def test_a_fixed_arm_of_six_joints_takes_its_best_branch() -> None:
 
 
 def test_no_base_goal_is_no_constraint_on_the_base() -> None:
-    plan = tk.plan_pose(ROBOT, tk.transform(xyz=(20.0, -7.0, 0.9)), seed=SEED)
+    plan = tk.plan_pose(ROBOT, tk.transform(xyz=(5.0, -7.0, 0.9)), seed=SEED)
     assert plan.success
 
 
