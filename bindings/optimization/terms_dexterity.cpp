@@ -76,15 +76,16 @@ the derivatives given.
 Parameters
 ----------
 jacobian : 'whole_body', 'arm' or (n,)
-    Whose columns count: all; all but the base's; or all, each times its joint's weight. The whole
-    body's is blind to singularities of the arm: the base's columns fill the lost direction.
+    Whose columns count: all; all but the base's; or all, each times its joint's weight, 0 to 1e6,
+    of which at least six are not zero. The whole body's is blind to singularities of the arm: the
+    base's columns fill the lost direction.
 frame : str, optional
     Default: the tool.
 
 Raises
 ------
 ValueError
-    If a weight is negative or not finite; bound to a robot with fewer than six joints that count.
+    If a weight is out of range; bound to a robot with fewer than six joints that count.
 
 Examples
 --------
