@@ -432,6 +432,7 @@ def test_what_they_say_of_themselves(term: terms.Term) -> None:
         (lambda: terms.SeedDistance(SEED, -1.0), "weights: got a negative"),
         (lambda: terms.SeedDistance(SEED, [[1.0], [1.0, 2.0]]), "weights: got"),
         (lambda: terms.Pose(np.eye(4)).evaluate(ROBOT, SEED[:6]), "q: got shape"),
+        (lambda: terms.Pose(np.eye(4)).evaluate("thing", SEED), "robot: got str"),
         (lambda: terms.Pose(np.eye(4)).hessian(ROBOT, SEED, np.ones(5)), "weights: got shape"),
     ],
 )

@@ -54,8 +54,9 @@ void bind_measure(py::module_& m, const char* name, const char* doc) {
              return T(read_columns(jacobian), frame.value_or(""));
            }),
            py::kw_only(), py::arg("jacobian") = "whole_body", py::arg("frame") = py::none())
-      .def_property_readonly("jacobian", &jacobian_of,
-                             "'whole_body', 'arm' or the weights of the joints.")
+      .def_property_readonly(
+          "jacobian", [](const T& term) { return jacobian_of(term); },
+          "'whole_body', 'arm' or the weights of the joints.")
       .def_property_readonly(
           "frame", [](const T& term) { return frame_or_none(term.frame()); }, "None: the tool.")
       .def("__repr__", [name = std::string(name)](const T& term) {
