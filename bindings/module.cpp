@@ -52,6 +52,7 @@ PYBIND11_MODULE(_core, m) {
   bind_ik_result(m);
   bind_numeric_ik(m);
 
+  bind_pose_plan(m);
   py::module_ terms = m.def_submodule("terms", "What problems are made of.");
   bind_term_recipe(terms);
   bind_terms_pose(terms);
@@ -60,4 +61,6 @@ PYBIND11_MODULE(_core, m) {
   bind_terms_clearance(terms);
   bind_terms_dexterity(terms);
   bind_terms_joints(terms);
+  bind_path_plan(m);
+  bind_path_follower(m);
 }

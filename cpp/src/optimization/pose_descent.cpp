@@ -63,7 +63,7 @@ PoseDescent::PoseDescent(const PosePlanner& planner, const SE3& target)
     : planner_(planner), ik_(make_ik(planner, planner.box_, planner.reach_, target)) {
   const int n = planner.chain_.dof();
   const int count = planner.clearances_.size() + (planner.options_.base_goal ? 1 : 0);
-  for (PosePoint* point : {&point_, &next_}) {
+  for (PosePoint* point : {here_, there_}) {
     point->slack.resize(count);
   }
   forms_.resize(n, n + count + 1);
@@ -108,10 +108,10 @@ void PoseDescent::measure(PosePoint& point) const noexcept {
 }
 
 double PoseDescent::violation_at(const JointVector& q) noexcept {
-  next_.q = q;
-  place_joints(planner_.chain_, q.data(), next_.posture);
-  measure(next_);
-  return next_.violation;
+  there_->q = q;
+  place_joints(planner_.chain_, q.data(), there_->posture);
+  measure(*there_);
+  return there_->violation;
 }
 
 bool PoseDescent::place(const JointVector& q, int most, PosePoint& point) noexcept {
@@ -135,21 +135,21 @@ bool PoseDescent::begin(const JointVector& q) noexcept {
   nu_ = JointVector::Zero(q.size());
   radius_ = kFirstRadius;
   penalty_ = kFirstPenalty;
-  return place(q, kMostArrivals, point_);
+  return place(q, kMostArrivals, *here_);
 }
 
 // The null space of J, and the Lagrangian's gradient and Hessian in it. The pose's multipliers are
 // those of least squares, given those of the inequalities of the step before.
 void PoseDescent::reduce() noexcept {
-  rows_.factor(point_.J);
+  rows_.factor(here_->J);
   rows_.null_space(Z_);
-  const JointVector& gradient = point_.objective.gradient;
-  SmallMatrix W = point_.objective.hessian;
+  const JointVector& gradient = here_->objective.gradient;
+  SmallMatrix W = here_->objective.hessian;
   JointVector pull = gradient - nu_;
   JointVector along;
   for (int i = 0; i < static_cast<int>(mu_.size()); ++i) {
     if (mu_[i] > 0.0) {
-      slack_gradient(point_, i, along);
+      slack_gradient(*here_, i, along);
       pull -= mu_[i] * along;
       const int first = planner_.options_.base_goal ? 1 : 0;
       if (i < first) {
@@ -157,36 +157,37 @@ void PoseDescent::reduce() noexcept {
         W(base[0], base[0]) += mu_[i] / planner_.options_.base_radius;
         W(base[1], base[1]) += mu_[i] / planner_.options_.base_radius;
       } else {
-        planner_.clearances_.add_hessian(point_.posture, point_.q.data(), i - first, -mu_[i], W);
+        planner_.clearances_.add_hessian(here_->posture, here_->q.data(), i - first, -mu_[i], W);
       }
     }
   }
   rows_.apply_q_transposed(pull.data());
   Vector6 lambda = pull.head<6>();
   rows_.solve_r(lambda.data());
-  add_pose_curvature(planner_.chain_, point_.J, -lambda, W);
-  g_.noalias() = Z_.transpose() * gradient;
-  const SmallMatrix WZ = W * Z_;
-  H_.noalias() = Z_.transpose() * WZ;
+  add_pose_curvature(planner_.chain_, here_->J, -lambda, W);
+  // Small: coefficient by coefficient is quicker than by blocks.
+  g_.noalias() = Z_.transpose().lazyProduct(gradient);
+  const SmallMatrix WZ = W.lazyProduct(Z_);
+  H_.noalias() = Z_.transpose().lazyProduct(WZ);
 }
 
 // What each joint may do within its sides and the trust region, and what inequalities may come into
 // play. An endless joint has no sides: it goes on at the other end.
 void PoseDescent::collect_forms() noexcept {
-  const Eigen::Index n = point_.q.size();
+  const Eigen::Index n = here_->q.size();
   const Eigen::Index k = Z_.cols();
   forms_.topLeftCorner(k, n) = Z_.transpose();
   for (Eigen::Index j = 0; j < n; ++j) {
     const bool endless = ik_.box.is_endless(j);
-    lower_[j] = endless ? -radius_ : std::max(-radius_, ik_.box.lower(j) - point_.q[j]);
-    upper_[j] = endless ? radius_ : std::min(radius_, ik_.box.upper(j) - point_.q[j]);
+    lower_[j] = endless ? -radius_ : std::max(-radius_, ik_.box.lower(j) - here_->q[j]);
+    upper_[j] = endless ? radius_ : std::min(radius_, ik_.box.upper(j) - here_->q[j]);
   }
   inequalities_.clear();
   const double way = radius_ * std::sqrt(static_cast<double>(n));
   for (int i = 0; i < static_cast<int>(mu_.size()); ++i) {
     const std::size_t place = inequalities_.size();
     JointVector& along = gradients_[place];
-    const double slack = slack_gradient(point_, i, along);
+    const double slack = slack_gradient(*here_, i, along);
     if (slack > way * along.norm()) {
       continue;
     }
@@ -202,7 +203,7 @@ void PoseDescent::collect_forms() noexcept {
 // may be all that is missing to convexity: |a . z - b|^2 vanishes on them.
 bool PoseDescent::stiffen(const FormsView& forms) noexcept {
   const double stiffness = 10.0 * H_.cwiseAbs().maxCoeff();
-  const auto n = static_cast<int>(point_.q.size());
+  const auto n = static_cast<int>(here_->q.size());
   SmallMatrix H = H_;
   SmallVector g = g_;
   int count = 0;
@@ -242,7 +243,7 @@ void PoseDescent::convexify() noexcept {
 
 bool PoseDescent::minimize() noexcept {
   const Eigen::Index k = Z_.cols();
-  const Eigen::Index count = point_.q.size() + static_cast<Eigen::Index>(inequalities_.size());
+  const Eigen::Index count = here_->q.size() + static_cast<Eigen::Index>(inequalities_.size());
   const auto forms = forms_.topLeftCorner(k, count);
   ConvexQp::Status status = qp_.minimize(H_, g_, forms, lower_.data(), upper_.data());
   exact_ = status != ConvexQp::Status::kNotConvex;
@@ -264,7 +265,7 @@ bool PoseDescent::minimize() noexcept {
 // Where no step keeps all inequalities: one more variable t >= 0 that they may all fall short by,
 // at a price.
 bool PoseDescent::relax() noexcept {
-  const Eigen::Index n = point_.q.size();
+  const Eigen::Index n = here_->q.size();
   const Eigen::Index k = Z_.cols();
   const Eigen::Index count = n + static_cast<Eigen::Index>(inequalities_.size());
   if (k + 1 > kMaxDof || k + 1 > forms_.rows()) {
@@ -293,7 +294,7 @@ bool PoseDescent::relax() noexcept {
 }
 
 void PoseDescent::remember_multipliers() noexcept {
-  const auto n = static_cast<int>(point_.q.size());
+  const auto n = static_cast<int>(here_->q.size());
   mu_.setZero();
   nu_.setZero();
   for (int i = 0; i < qp_.active(); ++i) {
@@ -310,7 +311,7 @@ void PoseDescent::remember_multipliers() noexcept {
 
 double PoseDescent::predicted_violation() const noexcept {
   double sum = 0.0;
-  const Eigen::Index n = point_.q.size();
+  const Eigen::Index n = here_->q.size();
   for (std::size_t i = 0; i < inequalities_.size(); ++i) {
     const Eigen::Index column = n + static_cast<Eigen::Index>(i);
     const double along = forms_.col(column).head(z_.size()).dot(z_);
@@ -325,26 +326,26 @@ PoseDescent::Step PoseDescent::step() noexcept {
   if (!minimize()) {
     return Step::kStuck;
   }
-  const JointVector dq = Z_ * z_;
+  const JointVector dq = Z_.lazyProduct(z_);
   const double length = dq.cwiseAbs().maxCoeff();
   const double gain =
-      -(g_.dot(z_) + 0.5 * z_.dot(H_ * z_)) + penalty_ * (point_.violation - predicted_violation());
+      -(g_.dot(z_) + 0.5 * z_.dot(H_ * z_)) + penalty_ * (here_->violation - predicted_violation());
   const bool feasible = is_feasible();
   if (length <= kNoStep || (feasible && gain <= kLeastGain)) {
     return Step::kLast;
   }
-  JointVector q = point_.q + dq;
+  JointVector q = here_->q + dq;
   for (Eigen::Index j = 0; j < q.size(); ++j) {
     q[j] = ik_.box.inside(j, q[j]);
   }
-  if (!place(q, kMostReturns, next_)) {
+  if (!place(q, kMostReturns, *there_)) {
     radius_ = 0.25 * length;
     return Step::kRefused;
   }
-  const double came = point_.objective.value - next_.objective.value +
-                      penalty_ * (point_.violation - next_.violation);
+  const double came = here_->objective.value - there_->objective.value +
+                      penalty_ * (here_->violation - there_->violation);
   const bool last = exact_ && (length <= kLastStep || (feasible && gain <= kLastGain)) &&
-                    next_.violation <= planner_.options_.tolerance;
+                    there_->violation <= planner_.options_.tolerance;
   if (!last && !(came >= kAccept * gain)) {
     radius_ = 0.3 * length;
     return Step::kRefused;
@@ -352,12 +353,12 @@ PoseDescent::Step PoseDescent::step() noexcept {
   if (came > kEnlarge * gain && length > 0.7 * radius_) {
     radius_ = std::min(2.0 * radius_, kLargestRadius);
   }
-  std::swap(point_, next_);
+  std::swap(here_, there_);
   return last ? Step::kLast : Step::kTaken;
 }
 
 bool PoseDescent::descend(int most) noexcept {
-  if (point_.q.size() == 6) {  // nothing is free
+  if (here_->q.size() == 6) {  // nothing is free
     return is_feasible();
   }
   for (int i = 0; i < most; ++i) {

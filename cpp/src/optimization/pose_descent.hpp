@@ -24,6 +24,11 @@ struct PosePoint {
 class PoseDescent {
  public:
   PoseDescent(const PosePlanner& planner, const SE3& target);
+  PoseDescent(const PoseDescent&) = delete;
+  PoseDescent& operator=(const PoseDescent&) = delete;
+  PoseDescent(PoseDescent&&) = delete;
+  PoseDescent& operator=(PoseDescent&&) = delete;
+  ~PoseDescent() = default;
 
   /// Brings the hand to the target from q, by inverse kinematics within the box. False if it stalls
   /// or the Jacobian there has no full rank.
@@ -32,8 +37,8 @@ class PoseDescent {
   /// Descends from there. True: point() is feasible and stationary.
   bool descend(int most) noexcept;
 
-  const PosePoint& point() const { return point_; }
-  bool is_feasible() const { return point_.violation <= planner_.options_.tolerance; }
+  const PosePoint& point() const { return *here_; }
+  bool is_feasible() const { return here_->violation <= planner_.options_.tolerance; }
   int iterations() const { return iterations_; }
   const IkProblem& ik() const { return ik_; }
 
@@ -58,7 +63,9 @@ class PoseDescent {
 
   const PosePlanner& planner_;
   IkProblem ik_;
-  PosePoint point_, next_;
+  std::array<PosePoint, 2> points_;
+  PosePoint* here_ = points_.data();
+  PosePoint* there_ = points_.data() + 1;
   int iterations_ = 0;
 
   // The quadratic program of a step: z in the null space of J.
