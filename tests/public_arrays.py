@@ -290,7 +290,7 @@ TERMS = [
     ),
     Argument("terms.BaseDistance", "center", XI[:2], term(tk.terms.BaseDistance)),
     Argument("terms.BasePosition", "target", XI[:2], term(tk.terms.BasePosition)),
-    Argument("terms.SeedDistance", "seed", Q, term(tk.terms.SeedDistance)),
+    Argument("terms.SeedDistance of", "seed", Q, term(tk.terms.SeedDistance)),
     Argument(
         "terms.SeedDistance", "weights", np.ones(9), term(lambda v: tk.terms.SeedDistance(Q, v))
     ),
@@ -364,3 +364,15 @@ OPTIONAL = {
     "center",
     "pose",
 }
+
+# Labels where such a name is not optional.
+REQUIRED = (
+    "rotation",
+    "JointRange",
+    "Disc",
+    "Sphere",
+    "HalfSpace",
+    "terms.Cone",
+    "terms.BaseDistance",
+    "terms.SeedDistance of",
+)

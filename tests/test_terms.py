@@ -26,6 +26,7 @@ OBSTACLES = [
 ]
 SHAPE = tk.LinkSpheres.along_links(ROBOT, 0.08, 0.2)
 ON_BASE = tk.LinkSpheres(ROBOT, [("base", (0.2, 0.0, 0.3), 0.4)])
+PLANAR = [tk.DH(a=0.5, joint="revolute")] * 3
 points = st.tuples(lengths, lengths, lengths)
 
 
@@ -421,15 +422,17 @@ def test_what_they_say_of_themselves(term: terms.Term) -> None:
         ),
         (lambda: terms.Clearance(obstacles=OBSTACLES[:1]).rows(ARM), r"obstacles\[0\]: got a Disc"),
         (lambda: terms.Dexterity(jacobian="body"), "jacobian: got 'body'"),
-        (lambda: terms.Dexterity(jacobian=-WEIGHTS), "jacobian: got a negative weight"),
+        (lambda: terms.Dexterity(jacobian=-WEIGHTS), "jacobian: got -1"),
         (lambda: terms.Dexterity(jacobian=WEIGHTS).evaluate(ARM, SEED[:6]), "jacobian: got 9"),
-        (lambda: terms.Dexterity(jacobian=np.eye(9)[0]).evaluate(ROBOT, SEED), "robot: got"),
+        (lambda: terms.Dexterity(jacobian=np.eye(9)[0]).evaluate(ROBOT, SEED), "jacobian: got 1"),
+        (lambda: terms.Dexterity().evaluate(tk.Chain.from_dh(PLANAR), np.zeros(3)), "robot: got"),
         (lambda: terms.Dexterity(frame="no").evaluate(ROBOT, SEED), "frame: got 'no'"),
         (lambda: terms.SeedDistance(SEED).evaluate(ARM, SEED[:6]), "seed: got 9"),
         (lambda: terms.SeedDistance(SEED, [1.0]), "weights: got 1"),
         (lambda: terms.SeedDistance(SEED, -1.0), "weights: got a negative"),
         (lambda: terms.SeedDistance(SEED, [[1.0], [1.0, 2.0]]), "weights: got"),
         (lambda: terms.Pose(np.eye(4)).evaluate(ROBOT, SEED[:6]), "q: got shape"),
+        (lambda: terms.Pose(np.eye(4)).evaluate("thing", SEED), "robot: got str"),
         (lambda: terms.Pose(np.eye(4)).hessian(ROBOT, SEED, np.ones(5)), "weights: got shape"),
     ],
 )
