@@ -10,7 +10,6 @@
 
 #include <nlopt.hpp>
 
-#include "thing_kin/inverse/pose_residual.hpp"
 #include "thing_kin/kinematics/jacobian.hpp"
 #include "thing_kin/kinematics/log_dexterity.hpp"
 #include "thing_kin/kinematics/posture.hpp"
@@ -60,8 +59,8 @@ class Functions {
     const SE3 hand = frame_pose(robot_, posture_, robot_.tool());
     const SE3& target = instance_->target;
     const Eigen::Vector3d turn = so3_log(target.rotation * hand.rotation.transpose());
-    Eigen::Map<Eigen::Vector3d>(result) = target.translation - hand.translation;
-    Eigen::Map<Eigen::Vector3d>(result + 3) = turn;
+    Eigen::Map<Vector6> error(result);
+    error << target.translation - hand.translation, turn;
     if (gradient != nullptr) {
       Eigen::Map<RowMajor> J(gradient, 6, kJoints);
       J = -J_;

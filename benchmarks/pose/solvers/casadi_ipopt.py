@@ -103,7 +103,7 @@ class CasadiIpopt(Solver):
 def pose_function(ca: Any) -> Any:
     """Position and rotation left of joints (9) and goal (16, column-major): zero at the goal.
 
-    The rotation is the vector part of R_goal R^T, which is zero half a turn off, too.
+    The rotation by phi is tan(phi/2) times its axis: zero at the goal alone.
     """
     q, flat = ca.SX.sym("q", 9), ca.SX.sym("goal", 16)
     goal = ca.reshape(flat, 4, 4)
@@ -120,5 +120,6 @@ def pose_function(ca: Any) -> Any:
         T = T @ ca.DM(before) @ move
     T = T @ ca.DM(tool)
     E = goal[:3, :3] @ T[:3, :3].T
-    turn = ca.vertcat(E[2, 1] - E[1, 2], E[0, 2] - E[2, 0], E[1, 0] - E[0, 1]) / 2
+    twice_sine = ca.vertcat(E[2, 1] - E[1, 2], E[0, 2] - E[2, 0], E[1, 0] - E[0, 1])
+    turn = twice_sine / (1.0 + ca.trace(E))  # sin phi / (1 + cos phi)
     return ca.Function("pose", [q, flat], [ca.vertcat(goal[:3, 3] - T[:3, 3], turn)])
