@@ -326,7 +326,27 @@ INTEROP = [
     Argument("PinocchioModel", "q", Q, PIN_THING.q),
     Argument("PinocchioModel", "v", Q, PIN_THING.from_v),
 ]
+TRAJECTORY = tk.Trajectory(
+    ["a", "b"], [0.0, 0.5, 2.0], np.arange(6.0).reshape(3, 2), np.zeros((3, 2)), np.zeros((3, 2))
+)
+
+
+def move_with(name: str) -> Callable[[Any], Any]:
+    known = {"q0": Q[:6], "q1": Q[:6] + 0.3}
+    return lambda value: tk.move_to(ARM, **{**known, name: value}).positions
+
+
+TIMING = [
+    Argument("Trajectory.sample", "t", XI, lambda t: TRAJECTORY.sample(t)[0], moderate=True),
+    Argument("move_to", "q0", Q[:6], move_with("q0"), moderate=True),
+    Argument("move_to", "q1", Q[:6], move_with("q1"), moderate=True),
+    *(
+        Argument("move_to", name, np.full(6, 2.0), move_with(name), infinite=True)
+        for name in ("velocity_limits", "acceleration_limits", "jerk_limits")
+    ),
+]
 ARGUMENTS = [
+    *TIMING,
     *INTEROP,
     *CHAIN,
     *MOTION,
@@ -363,6 +383,7 @@ OPTIONAL = {
     "max_step",
     "center",
     "pose",
+    "jerk_limits",
 }
 
 # Labels where such a name is not optional.
