@@ -50,4 +50,10 @@ void bind_closed_form_ik(py::module_& m);
 void bind_ik_result(py::module_& m);
 void bind_numeric_ik(py::module_& m);
 
+void bind_term_recipe(py::module_& terms);
+void bind_function_term(py::module_& terms);
+void bind_problem(py::module_& m);
+void bind_derivative_check(py::module_& m);
+void bind_sqp(py::module_& m);
+
 }  // namespace thing_kin::python

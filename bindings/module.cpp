@@ -49,4 +49,11 @@ PYBIND11_MODULE(_core, m) {
   bind_closed_form_ik(m);
   bind_ik_result(m);
   bind_numeric_ik(m);
+
+  py::module_ terms = m.def_submodule("terms", "What objectives and constraints are made of.");
+  bind_term_recipe(terms);
+  bind_function_term(terms);
+  bind_problem(m);
+  bind_derivative_check(m);
+  bind_sqp(m);
 }
