@@ -28,6 +28,7 @@ void bind_chain_description(ChainClass& chain);
 void bind_joint_difference(ChainClass& chain);
 void bind_urdf(ChainClass& chain);
 void bind_omni_base(py::module_& m);
+void bind_obstacle(py::module_& m);
 void bind_robots(py::module_& m);
 
 void bind_posture(ChainClass& chain);
@@ -39,6 +40,7 @@ void bind_analytic_jacobian(ChainClass& chain);
 void bind_manipulability(ChainClass& chain);
 void bind_pose_error(py::module_& m);
 void bind_task_vector(ChainClass& chain);
+void bind_link_spheres(py::module_& m);
 
 void bind_differential_inverse(py::module_& m);
 void bind_task(py::module_& m);
@@ -50,10 +52,20 @@ void bind_closed_form_ik(py::module_& m);
 void bind_ik_result(py::module_& m);
 void bind_numeric_ik(py::module_& m);
 
+void bind_pose_plan(py::module_& m);
 void bind_term_recipe(py::module_& terms);
+void bind_terms_pose(py::module_& terms);
+void bind_terms_orientation_cone(py::module_& terms);
+void bind_terms_base(py::module_& terms);
+void bind_terms_clearance(py::module_& terms);
+void bind_terms_dexterity(py::module_& terms);
+void bind_terms_joints(py::module_& terms);
 void bind_function_term(py::module_& terms);
 void bind_problem(py::module_& m);
 void bind_derivative_check(py::module_& m);
 void bind_sqp(py::module_& m);
+
+void bind_path_plan(py::module_& m);
+void bind_path_follower(py::module_& m);
 
 }  // namespace thing_kin::python

@@ -27,6 +27,7 @@ PYBIND11_MODULE(_core, m) {
   bind_joint_difference(chain);
   bind_urdf(chain);
   bind_omni_base(m);
+  bind_obstacle(m);
   py::module_ robots = m.def_submodule("robots", "The robots of the two theses.");
   bind_robots(robots);
 
@@ -39,6 +40,7 @@ PYBIND11_MODULE(_core, m) {
   bind_pose_error(m);
   bind_task_vector(chain);
   bind_analytic_jacobian(chain);
+  bind_link_spheres(m);
 
   bind_differential_inverse(m);
   bind_task(m);
@@ -50,10 +52,19 @@ PYBIND11_MODULE(_core, m) {
   bind_ik_result(m);
   bind_numeric_ik(m);
 
-  py::module_ terms = m.def_submodule("terms", "What objectives and constraints are made of.");
+  bind_pose_plan(m);
+  py::module_ terms = m.def_submodule("terms", "What problems are made of.");
   bind_term_recipe(terms);
+  bind_terms_pose(terms);
+  bind_terms_orientation_cone(terms);
+  bind_terms_base(terms);
+  bind_terms_clearance(terms);
+  bind_terms_dexterity(terms);
+  bind_terms_joints(terms);
   bind_function_term(terms);
   bind_problem(m);
   bind_derivative_check(m);
   bind_sqp(m);
+  bind_path_plan(m);
+  bind_path_follower(m);
 }

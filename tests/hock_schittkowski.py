@@ -11,9 +11,8 @@ from math import inf, log, pi, sqrt
 import numpy as np
 
 import jets
-from jets import Jet, cos, exp, functions, sin
-
 import thing_kin as tk
+from jets import Jet, cos, exp, functions, sin
 
 Functions = Callable[..., Sequence[Jet | float]]
 

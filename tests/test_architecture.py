@@ -34,9 +34,7 @@ APART = {
     "kdl_ik_search.cpp",
     CERES_SOURCE.name,
     "smooth_model.cpp",
-} | {
-    f"urdf{part}.cpp" for part in ("", "_document", "_excerpt", "_source", "_tree")
-}
+} | {f"urdf{part}.cpp" for part in ("", "_document", "_excerpt", "_source", "_tree")}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 # Of `f(...) {` or `[](...) -> T {`; no aggregate, no initializer in braces.

@@ -100,9 +100,10 @@ def test_arrays(argument: Argument, data: st.DataObject) -> None:
 @pytest.mark.parametrize("argument", ARGUMENTS, ids=lambda a: f"{a.label}-{a.name}")
 @given(value=plain)
 def test_what_is_no_array(argument: Argument, value: Any) -> None:
+    # Here it has the name of an option.
     required = argument.label.startswith(
-        ("rotation", "JointRange")
-    )  # here it has the name of an option
+        ("rotation", "JointRange", "Disc", "Sphere", "HalfSpace", "terms.BaseDistance")
+    )
     if value is None and argument.name in OPTIONAL and not required:
         assert is_right(argument.call(None), argument.infinite)
         return

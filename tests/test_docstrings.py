@@ -33,8 +33,8 @@ def class_and_members(path: str, thing: type) -> Iterator[tuple[str, object]]:
 
 THINGS = dict(public_things())
 PROPERTIES = {path for path, thing in THINGS.items() if isinstance(thing, property)}
-MODULES_WITHOUT = {module.__name__ for module in (lie, robots, terms, kdl)}
-WITH_EXAMPLES = sorted(set(THINGS) - PROPERTIES - MODULES_WITHOUT)
+MODULES_ALONE = {lie.__name__, robots.__name__, terms.__name__, kdl.__name__}
+WITH_EXAMPLES = sorted(set(THINGS) - PROPERTIES - MODULES_ALONE)
 
 
 def text_of(path: str) -> str:

@@ -32,6 +32,8 @@ def test_it_loads_numpy_only() -> None:
         "tqdm",
         "scipy",
         "yaml",
+        "toppra",
+        "ruckig",
         "thing_kin._kdl",
         "thing_kin.kdl",
         "thing_kin._urdf",

@@ -23,9 +23,7 @@ def term(f, size: int = 1, name: str = "function") -> tk.terms.Function:
 def linear(A: np.ndarray, name: str = "linear") -> tk.terms.Function:
     A = np.atleast_2d(A)
     zeros = np.zeros((*A.shape, A.shape[1]))
-    return tk.terms.Function(
-        lambda x: A @ x, lambda x: A, lambda x: zeros, size=len(A), name=name
-    )
+    return tk.terms.Function(lambda x: A @ x, lambda x: A, lambda x: zeros, size=len(A), name=name)
 
 
 def quadratic(P: np.ndarray, g: np.ndarray) -> tk.terms.Function:
@@ -399,3 +397,68 @@ def test_misuse(options: dict, said: str) -> None:
     problem = tk.Problem(n=2)
     with pytest.raises(ValueError, match=said):
         tk.sqp(problem, **{"x0": np.zeros(2), **options})
+
+
+# --- Robots -------------------------------------------------------------------------------------
+
+ROBOT = tk.robots.thing()
+SEED = np.array([0.0, -1.2, 1.4, -0.6, 1.2, 0.0, 0.0, 0.0, 0.0])
+T_GOAL = tk.transform(xyz=(1.2, -0.9, 0.9), rpy=(0.0, np.pi / 2, 0.0))
+
+
+def whole_body_pose(T_goal: np.ndarray, base: tuple[float, float], radius: float) -> tk.Problem:
+    """[M17] (4.34), term by term."""
+    problem = tk.Problem(ROBOT)
+    problem.minimize(tk.terms.Dexterity())
+    problem.equal(tk.terms.Pose(T_goal))
+    problem.at_most(tk.terms.BaseDistance(base), radius)
+    problem.bound("theta", -np.pi / 4, np.pi / 4)
+    return problem
+
+
+@pytest.mark.parametrize("minimizer", EXACT)
+def test_the_whole_body_pose(minimizer: str) -> None:
+    """As plan_pose, which eliminates the pose instead; from a seed 1.2 m away."""
+    disc = tk.Disc(center=(0.6, 0.6), radius=0.4)
+    plan = tk.plan_pose(
+        ROBOT, T_GOAL, seed=SEED, base_goal=(0.6, 0.0), base_radius=0.3,
+        heading=(-np.pi / 4, np.pi / 4), obstacles=[disc],
+    )  # fmt: skip
+    problem = whole_body_pose(T_GOAL, (0.6, 0.0), 0.3)
+    problem.minimize(tk.terms.SeedDistance(SEED), weight=1e-6)
+    problem.at_least(tk.terms.BaseDistance((0.6, 0.6)), 0.4)
+    result = tk.sqp(problem, SEED, minimizer=minimizer)
+    assert result.success, result.message
+    assert result.objective < 1.1 * plan.objective
+    position, rotation = np.split(tk.pose_error(ROBOT.fk(result.q), T_GOAL), 2)
+    assert np.linalg.norm(position) < 1e-7
+    assert np.linalg.norm(rotation) < 1e-7
+    base = ROBOT.base_pose(result.q)
+    assert np.hypot(*(base[:2] - (0.6, 0.0))) <= 0.3 + 1e-8
+    assert np.hypot(*(base[:2] - (0.6, 0.6))) >= 0.4 - 1e-8
+    assert abs(base[2]) <= np.pi / 4
+
+
+@pytest.mark.parametrize("minimizer", ["augmented_lagrangian", "qp"])
+def test_from_an_optimum_it_stays(minimizer: str) -> None:
+    """Where plan_pose ends, Algorithm 2 finds nothing to do, nor after a push."""
+    rng = np.random.default_rng(5)
+    for _ in range(5):
+        q = SEED + 0.3 * rng.normal(size=9) * (np.arange(9) < 6)
+        T = ROBOT.fk(q)
+        options = {"base_goal": (0.0, 0.0), "base_radius": 0.5, "heading": (-np.pi / 4, np.pi / 4)}
+        plan = tk.plan_pose(ROBOT, T, seed=q, **options)
+        assert plan.success
+        problem = whole_body_pose(T, (0.0, 0.0), 0.5)
+        near = plan.q + 1e-3 * rng.normal(size=9)
+        result = tk.sqp(problem, near, minimizer=minimizer)
+        assert result.success, result.message
+        assert result.objective == pytest.approx(plan.objective, rel=1e-6)
+        assert result.iterations < 20
+
+
+def test_a_pose_out_of_reach() -> None:
+    problem = whole_body_pose(tk.transform(xyz=(4.0, 0.0, 0.5)), (0.0, 0.0), 0.3)
+    result = tk.sqp(problem, SEED, minimizer="qp")
+    assert result.status == "infeasible", result.message
+    assert "pose[" in result.message

@@ -16,6 +16,7 @@
 #include "thing_kin/kinematics/acceleration.hpp"
 #include "thing_kin/kinematics/analytic_jacobian.hpp"
 #include "thing_kin/kinematics/batch.hpp"
+#include "thing_kin/kinematics/clearance.hpp"
 #include "thing_kin/kinematics/jacobian_dot.hpp"
 #include "thing_kin/kinematics/manipulability.hpp"
 #include "thing_kin/linalg/null_space.hpp"
@@ -84,6 +85,31 @@ TEST(NoHeap, Kinematics) {
               task_vector(robot, q.data());
             }),
             0);
+}
+
+TEST(NoHeap, Clearances) {
+  const Chain robot = robots::thing();
+  LinkSpheres shape = spheres_along_links(robot, 0.1, 0.1);
+  shape.pairs = self_collision_pairs(robot, shape.spheres);
+  const Clearances clearances(
+      robot, shape,
+      {Disc{{1, 1}, 0.3}, Sphere{{1, 0, 1}, 0.1}, Capsule{{1, 0, 0}, {1, 0, 1}, 0.1},
+       Box{{}, {0.1, 0.1, 0.1}}, HalfSpace{}});
+  const Eigen::VectorXd q = Eigen::VectorXd::LinSpaced(9, -1.0, 1.0);
+  double sum = 0.0;
+  EXPECT_EQ(allocations_in([&] {
+              Posture posture;
+              JointVector gradient;
+              SmallMatrix H = SmallMatrix::Zero(9, 9);
+              place_joints(robot, q.data(), posture);
+              for (int i = 0; i < clearances.size(); ++i) {
+                sum += clearances.value(posture, q.data(), i);
+                sum -= clearances.gradient(posture, q.data(), i, gradient);
+                clearances.add_hessian(posture, q.data(), i, 1.0, H);
+              }
+            }),
+            0);
+  EXPECT_NEAR(sum, 0.0, 1e-9);
 }
 
 // Misuse is found before the loop: what a control loop calls throws nothing and allocates nothing,

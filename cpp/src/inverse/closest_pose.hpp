@@ -2,7 +2,7 @@
 
 #include <bitset>
 
-#include "ik_descent.hpp"
+#include "thing_kin/inverse/ik_descent.hpp"
 
 namespace thing_kin {
 

@@ -1,4 +1,4 @@
-#include "damped_step.hpp"
+#include "thing_kin/inverse/damped_step.hpp"
 
 #include <algorithm>
 #include <cmath>

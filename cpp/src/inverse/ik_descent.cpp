@@ -1,11 +1,11 @@
-#include "ik_descent.hpp"
+#include "thing_kin/inverse/ik_descent.hpp"
 
 #include <array>
 #include <limits>
 #include <numbers>
 #include <utility>
 
-#include "damped_step.hpp"
+#include "thing_kin/inverse/damped_step.hpp"
 
 namespace thing_kin {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "damped_step.hpp"
+#include "thing_kin/inverse/damped_step.hpp"
 #include "thing_kin/kinematics/manipulability.hpp"
 
 namespace thing_kin {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ik_descent.hpp"
+#include "thing_kin/inverse/ik_descent.hpp"
 #include "thing_kin/inverse/numeric_ik.hpp"
 
 namespace thing_kin {

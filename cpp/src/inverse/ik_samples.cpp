@@ -1,4 +1,4 @@
-#include "ik_samples.hpp"
+#include "thing_kin/inverse/ik_samples.hpp"
 
 #include <algorithm>
 #include <limits>

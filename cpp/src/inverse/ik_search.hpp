@@ -5,8 +5,8 @@
 #include <span>
 
 #include "closest_pose.hpp"
-#include "ik_descent.hpp"
-#include "ik_samples.hpp"
+#include "thing_kin/inverse/ik_descent.hpp"
+#include "thing_kin/inverse/ik_samples.hpp"
 #include "thing_kin/inverse/numeric_ik.hpp"
 
 namespace thing_kin {

@@ -39,6 +39,13 @@ void JointBox::keep_near(const JointVector& seed, const JointVector& max_step) n
   }
 }
 
+void JointBox::narrow(Eigen::Index j, double lower, double upper) noexcept {
+  lower_[j] = std::max(lower_[j], lower);
+  upper_[j] = std::min(upper_[j], upper);
+  const auto i = static_cast<std::size_t>(j);
+  endless_[i] = endless_[i] && upper_[j] - lower_[j] >= kTurn;
+}
+
 double JointBox::inside(Eigen::Index j, double x) const noexcept {
   if (x >= lower_[j] && x <= upper_[j]) {
     return x;

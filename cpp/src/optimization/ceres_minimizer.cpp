@@ -196,9 +196,8 @@ class Bfgs {
     ceres::GradientProblemSolver::Options options;
     options.line_search_direction_type = ceres::BFGS;
     options.use_approximate_eigenvalue_bfgs_scaling = true;
-    options.line_search_interpolation_type = ceres::BISECTION;
     options.max_num_iterations = 300;
-    options.function_tolerance = 0.0;
+    options.function_tolerance = 1e-16;
     options.gradient_tolerance = 1e-2 * tolerance;
     options.parameter_tolerance = 1e-2 * tolerance;
     options.logging_type = ceres::SILENT;

@@ -15,6 +15,9 @@ class JointBox {
   /// What of the box is within max_step (one a joint) of seed, which is in the box.
   void keep_near(const JointVector& seed, const JointVector& max_step) noexcept;
 
+  /// What of joint j's range is within [lower, upper]; crossed where nothing is.
+  void narrow(Eigen::Index j, double lower, double upper) noexcept;
+
   double lower(Eigen::Index j) const { return lower_[j]; }
   double upper(Eigen::Index j) const { return upper_[j]; }
 

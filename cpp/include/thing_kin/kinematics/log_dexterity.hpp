@@ -1,30 +1,40 @@
 #pragma once
 
 #include "thing_kin/core/types.hpp"
-#include "thing_kin/kinematics/posture.hpp"
+#include "thing_kin/model/chain.hpp"
 
 namespace thing_kin {
 
-/// log sqrt(kappa/M) of a frame's origin, [M17] (4.33), with exact first and second derivatives:
-/// it has the minimizers of sqrt(kappa/M) and is far tamer. Its Jacobian's columns may be weighed:
-/// ones are the whole body, zeros leave joints out (the base's: the arm alone).
+/// log sqrt(kappa/M), [M17] (4.33), with exact first and second derivatives by q: it has the
+/// minimizers of sqrt(kappa/M) and is far tamer.
+///
+/// With the eigenvalues l_1 >= ... >= l_6 of A = J W J^T it is -(log det A - log l_1 + log l_6)/4,
+/// so that only l_1 and l_6 need to be simple.
 struct LogDexterity {
-  double value;  ///< infinite where the (weighed) Jacobian has lost rank
+  double value;  ///< infinite where the Jacobian has lost rank
   JointVector gradient;
   SmallMatrix hessian;
 
-  double condition_number;  ///< kappa, [M17] (4.32)
-  double manipulability;    ///< M, [M17] (4.30)
+  double log_condition_number;  ///< log kappa, [M17] (4.32)
+  double log_manipulability;    ///< log M, [M17] (4.30)
 };
 
-/// The value alone; column_weights: (n), at least 0, or null for ones.
-double log_dexterity(const Chain& chain, const Posture& posture, int frame,
-                     const double* column_weights) noexcept;
+/// How much each measure counts in w_kappa log kappa - w_M log M.
+struct DexterityWeights {
+  double condition_number = 0.5;
+  double manipulability = 0.5;
+};
 
-/// All of it. False, with an infinite value and derivatives undefined, where the rank is lost.
-/// Where the largest or smallest singular value is not simple the derivatives do not exist: those
-/// of a function next to it are given.
-bool log_dexterity(const Chain& chain, const Posture& posture, int frame,
-                   const double* column_weights, LogDexterity& out) noexcept;
+/// J: the world-aligned Jacobian of a frame's origin. column_weights: (n), at least 0, a factor of
+/// each column of J, or null for ones; zeros leave joints out (the base's: the arm alone).
+///
+/// False, with an infinite value and the rest undefined, where the rank is lost. Where the largest
+/// or smallest singular value is not simple, kappa has no derivative: that of a function next to it
+/// is given.
+bool log_dexterity(const Chain& chain, const Jacobian& J, const double* column_weights,
+                   LogDexterity& out, const DexterityWeights& weights = {}) noexcept;
+
+/// The value alone.
+double log_dexterity(const Jacobian& J, const double* column_weights) noexcept;
 
 }  // namespace thing_kin

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ik_descent.hpp"
+#include "thing_kin/inverse/ik_descent.hpp"
 #include "thing_kin/core/low_discrepancy.hpp"
 #include "thing_kin/inverse/reach.hpp"
 
