@@ -326,6 +326,24 @@ INTEROP = [
     Argument("PinocchioModel", "q", Q, PIN_THING.q),
     Argument("PinocchioModel", "v", Q, PIN_THING.from_v),
 ]
+
+
+def pose_with(name: str) -> Callable[[Any], Any]:
+    known: dict[str, Any] = {"target": T, "seed": Q, "base_goal": XI[:2] / 4, "base_radius": 0.5}
+
+    def call(value: Any) -> Any:
+        return tk.plan_pose(ROBOT, **{**known, name: value}, max_restarts=2).q
+
+    return call
+
+
+POSE_PLAN = [
+    Argument("plan_pose", "target", T, pose_with("target"), moderate=True),
+    Argument("plan_pose", "seed", Q, pose_with("seed"), moderate=True),
+    Argument("plan_pose", "base_goal", XI[:2] / 4, pose_with("base_goal")),
+    Argument("plan_pose", "heading", np.array([-1.0, 1.0]), pose_with("heading")),
+    Argument("plan_pose", "jacobian", np.full(9, 0.5), pose_with("jacobian")),
+]
 TRAJECTORY = tk.Trajectory(
     ["a", "b"], [0.0, 0.5, 2.0], np.arange(6.0).reshape(3, 2), np.zeros((3, 2)), np.zeros((3, 2))
 )
@@ -390,6 +408,7 @@ PROBLEM = [
     Argument("sqp", "x0", ABC, solved, moderate=True),
 ]
 ARGUMENTS = [
+    *POSE_PLAN,
     *TIMING,
     *PROBLEM,
     *INTEROP,
@@ -429,6 +448,7 @@ OPTIONAL = {
     "center",
     "pose",
     "jerk_limits",
+    "heading",
 }
 
 # Labels where such a name is not optional.
