@@ -54,5 +54,6 @@ void bind_numeric_ik(py::module_& m);
 
 void bind_path_plan(py::module_& m);
 void bind_path_follower(py::module_& m);
+void bind_pose_plan(py::module_& m);
 
 }  // namespace thing_kin::python

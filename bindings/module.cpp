@@ -52,6 +52,8 @@ PYBIND11_MODULE(_core, m) {
   bind_ik_result(m);
   bind_numeric_ik(m);
 
+  bind_pose_plan(m);
+
   bind_path_plan(m);
   bind_path_follower(m);
 }

@@ -141,7 +141,7 @@ void bind_path_plan(py::module_& m) {
          const OptionalArray& base_path, std::optional<double> base_radius,
          const OptionalArray& heading, const ObstacleList& obstacles, const SpheresLike& spheres,
          const std::string& method, const OptionalArray& max_joint_step,
-         const OptionalArray& joint_weights, const ColumnsLike& jacobian,
+         const OptionalArray& joint_weights, const JacobianColumns& jacobian,
          std::optional<double> dexterity_weight, const WarmStart& warm_start, int max_iterations,
          double position_tolerance, double rotation_tolerance, double constraint_tolerance) {
         PathOptions options;

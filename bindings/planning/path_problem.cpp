@@ -24,31 +24,6 @@ JointVector read_positive(const OptionalArray& argument, const char* name, int n
   return values;
 }
 
-JointVector read_columns(const ColumnsLike& argument, const Chain& robot) {
-  const int n = robot.dof();
-  JointVector weights = JointVector::Ones(n);
-  if (!py::isinstance<py::str>(argument)) {
-    weights = read_number_or_vector(argument, "jacobian", n, Finite::kYes);
-    for (const double weight : weights) {
-      if (!(weight >= 0.0)) {
-        throw InvalidArgument("jacobian", text(weight), "weights >= 0");
-      }
-    }
-    return weights;
-  }
-  const auto name = argument.cast<std::string>();
-  if (name == "arm") {
-    if (robot.base_joints()) {
-      for (const int j : *robot.base_joints()) {
-        weights[j] = 0.0;
-      }
-    }
-  } else if (name != "whole_body") {
-    throw InvalidArgument("jacobian", quoted(name), "'whole_body', 'arm' or a weight a joint");
-  }
-  return weights;
-}
-
 LinkSpheres read_spheres(const SpheresLike& argument, const std::vector<Obstacle>& obstacles) {
   if (!argument.is_none()) {
     if (!py::isinstance<LinkSpheres>(argument)) {
@@ -81,7 +56,10 @@ PathProblem make_problem(const Chain& robot, const PathArguments& arguments, int
                                          kUnlimited, Finite::kNo);
   problem.joint_weights =
       read_positive(arguments.joint_weights, "joint_weights", robot.dof(), 1.0, Finite::kYes);
-  problem.column_weights = read_columns(arguments.jacobian, robot);
+  const JointVector columns = read_column_weights(arguments.jacobian, robot);
+  if (columns.size() > 0) {
+    problem.column_weights = columns;
+  }
   const double count = std::max(1, waypoints);
   problem.dexterity_weight = arguments.dexterity_weight.value_or(1.0 / (count * count));
   if (!(problem.dexterity_weight >= 0.0 && std::isfinite(problem.dexterity_weight))) {

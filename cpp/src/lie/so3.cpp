@@ -82,6 +82,25 @@ Eigen::Matrix3d so3_right_jacobian_inverse(const Eigen::Vector3d& phi_vector) {
   return so3_left_jacobian_inverse(-phi_vector);
 }
 
+// J_r^-1 = I + S/2 + c S^2 with S = skew(phi), S^2 = phi phi^T - t I, and phi_m' = (m phi_{m+2} -
+// phi_{m+1})/2. Of a, of its e_k part: w^T skew(e_k) = (w x e_k)^T.
+Eigen::Matrix3d so3_right_jacobian_inverse_derivative(const Eigen::Vector3d& phi_vector,
+                                                      const Eigen::Vector3d& weights) {
+  const double t = phi_vector.squaredNorm();
+  const double numerator = phi<3>(t) - 2.0 * phi<4>(t);
+  const double numerator_rate = 0.5 * (3.0 * phi<5>(t) - phi<4>(t)) - (4.0 * phi<6>(t) - phi<5>(t));
+  const double denominator = 2.0 * phi<2>(t);
+  const double denominator_rate = 2.0 * phi<4>(t) - phi<3>(t);
+  const double c = numerator / denominator;
+  const double c_rate = (numerator_rate - c * denominator_rate) / denominator;
+  const double along = weights.dot(phi_vector);
+  const Eigen::RowVector3d square = along * phi_vector.transpose() - t * weights.transpose();
+  Eigen::Matrix3d N = 0.5 * skew(weights).transpose() + 2.0 * c_rate * phi_vector * square;
+  N += c * (weights * phi_vector.transpose() - 2.0 * phi_vector * weights.transpose());
+  N.diagonal().array() += c * along;
+  return N;
+}
+
 Eigen::Vector4d quaternion_from_rotation(const Eigen::Matrix3d& R) {
   Eigen::Vector4d q = largest_pivot_quaternion(R);
   if (std::abs(q[0]) <= kHalfTurnTolerance) {

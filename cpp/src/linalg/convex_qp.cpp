@@ -122,7 +122,7 @@ double ConvexQp::violation(const FormsView& forms, const double* lower, const do
     const double bound = std::abs(below ? lower[i] : upper[i]);
     const bool fixed = lower[i] == upper[i];
     const bool worse = fixed == equality ? out > most : fixed;
-    if (worse && out > slack_ * (bound + size) && !is_active(i)) {
+    if (worse && out > slack_ * (bound + size) && !holds(i)) {
       most = out;
       equality = fixed;
       side = {i, below ? 1.0 : -1.0, fixed};
@@ -131,7 +131,7 @@ double ConvexQp::violation(const FormsView& forms, const double* lower, const do
   return most;
 }
 
-bool ConvexQp::is_active(int form) const noexcept {
+bool ConvexQp::holds(int form) const noexcept {
   const auto* const end = sides_.begin() + active_;
   return std::any_of(sides_.begin(), end, [&](const Side& side) { return side.form == form; });
 }

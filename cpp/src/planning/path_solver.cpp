@@ -55,6 +55,7 @@ PathSolver::PathSolver(const PathProblem& problem, int capacity)
   dexterity_hessian_.assign(most * n * n, 0.0);
   curvature_.assign(most * m * m, 0.0);
   J_.resize(most);
+  postures_.resize(most);
   base_multiplier_.assign(most, 0.0);
   for (auto* v : {&values_, &trial_values_, &clearance_multiplier_, &inner_multiplier_}) {
     v->assign(most * c, 0.0);
@@ -201,7 +202,7 @@ PathSolver::Merit PathSolver::evaluate(const double* q) noexcept {
 void PathSolver::evaluate_waypoint(int k, const double* q, Merit& merit) noexcept {
   const Chain& chain = problem_.chain();
   const PathGoal& goal = goals_[index(k)];
-  Posture posture;
+  Posture& posture = postures_[index(k)];
   place_joints(chain, q, posture);
   if (problem_.dexterity_weight > 0.0) {
     Jacobian J;
@@ -243,7 +244,7 @@ void PathSolver::evaluate_segment(int k, const double* q, Merit& merit) noexcept
   }
   const double* from = trial_values_.data() + k * clearances_;
   for (int i = 0; i < clearances_; ++i) {
-    const Inner inner = inner_minimum(q, q + n_, i, from[i], from[clearances_ + i]);
+    const Inner inner = inner_minimum(k, q, i, from[i], from[clearances_ + i]);
     if (inner.t > 0.0) {
       const double slack = inner.value - kMargin;
       merit.violation += std::max(0.0, -slack);
@@ -254,31 +255,34 @@ void PathSolver::evaluate_segment(int k, const double* q, Merit& merit) noexcept
 
 // Where a clearance is least within a segment, if that is between its ends: safeguarded secant on
 // its slope.
-PathSolver::Inner PathSolver::inner_minimum(const double* from, const double* to, int i,
-                                            double d_from, double d_to) const noexcept {
+PathSolver::Inner PathSolver::inner_minimum(int k, const double* from, int i, double d_from,
+                                            double d_to) const noexcept {
+  const double* to = from + n_;
   const JointVector dq = ConstVector(to, n_) - ConstVector(from, n_);
-  constexpr double kReach = 2.0;  // m; the check at the end does not rely on it
   Inner best;
-  if (d_from + d_to > kReach * dq.lpNorm<1>()) {
-    return best;
+  if (d_from + d_to > problem_.motion_bound(i, from, dq.data()) + 4.0 * kMargin) {
+    return best;  // it stays above zero
   }
-  Posture posture;
   JointVector gradient;
   JointVector at(n_);
   double value = 0.0;
+  const auto slope_at = [&](const Posture& posture, const double* where) {
+    value = problem_.clearances().gradient(posture, where, i, gradient);
+    return gradient.dot(dq);
+  };
   const auto slope = [&](double t) {
+    Posture posture;
     at = ConstVector(from, n_) + t * dq;
     place_joints(problem_.chain(), at.data(), posture);
-    value = problem_.clearances().gradient(posture, at.data(), i, gradient);
-    return gradient.dot(dq);
+    return slope_at(posture, at.data());
   };
   double low = 0.0;
   double high = 1.0;
-  double slope_low = slope(0.0);
+  double slope_low = slope_at(postures_[index(k)], from);
   if (slope_low >= 0.0) {
     return best;
   }
-  double slope_high = slope(1.0);
+  double slope_high = slope_at(postures_[index(k + 1)], to);
   if (slope_high <= 0.0) {
     return best;
   }
@@ -321,10 +325,10 @@ void PathSolver::linearize() noexcept {
 
 void PathSolver::linearize_waypoint(int k) noexcept {
   const Chain& chain = problem_.chain();
-  Posture posture;
-  place_joints(chain, q(k), posture);
+  place_joints(chain, q(k), postures_[index(k)]);
   Jacobian& J = J_[index(k)];
-  geometric_jacobian(chain, posture, problem_.frame(), ReferenceFrame::kWorldAligned, J);
+  geometric_jacobian(chain, postures_[index(k)], problem_.frame(), ReferenceFrame::kWorldAligned,
+                     J);
   SmallMatrix A = J;
   RowQr qr;
   qr.factor(A);
@@ -393,8 +397,10 @@ void PathSolver::add_waypoint_rows(int k) noexcept {
 // A clearance at a waypoint (t = 0), or at the point t of the segment behind it.
 void PathSolver::add_point_row(Kind kind, int k, int i, double t, double z) noexcept {
   constexpr double kReach = 3.0;  // m: what a joint's turn may bring a sphere nearer by
+  constexpr double kNear = 0.15;  // m: what is further away the merit watches
   const bool within = kind != Kind::kClearance;
-  if (!within && !(values_[index(k * clearances_ + i)] < kReach * radius_) && z == 0.0) {
+  const double near = all_rows_ ? kReach * radius_ : std::min(kReach * radius_, kNear);
+  if (!within && !(values_[index(k * clearances_ + i)] < near) && z == 0.0) {
     return;
   }
   JointVector at = ConstVector(q(k), n_);
@@ -448,7 +454,7 @@ void PathSolver::add_segment_rows(int k) noexcept {
     }
   }
   for (int i = 0; i < clearances_; ++i) {
-    const Inner inner = inner_minimum(q(k), q(k + 1), i, values_[index(k * clearances_ + i)],
+    const Inner inner = inner_minimum(k, q(k), i, values_[index(k * clearances_ + i)],
                                       values_[index((k + 1) * clearances_ + i)]);
     if (inner.t > 0.0) {
       add_point_row(Kind::kInner, k, i, inner.t, inner_multiplier_[index(k * clearances_ + i)]);

@@ -10,8 +10,8 @@ namespace thing_kin {
 /// sin(theta))/theta^3, and phi_{m+2} = (1/m! - phi_m)/t.
 template <int m>
 double phi(double t) {
-  static_assert(m >= 1 && m <= 5);
-  constexpr double kFactorial[] = {1, 1, 2, 6, 24, 120};
+  static_assert(m >= 1 && m <= 6);
+  constexpr double kFactorial[] = {1, 1, 2, 6, 24, 120, 720};
   if (t < 1.0) {  // the recursion would cancel here; eleven terms reach rounding
     double term = 1.0 / kFactorial[m];
     double sum = term;

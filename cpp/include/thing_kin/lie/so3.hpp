@@ -24,6 +24,10 @@ Eigen::Matrix3d so3_right_jacobian(const Eigen::Vector3d& phi);
 Eigen::Matrix3d so3_left_jacobian_inverse(const Eigen::Vector3d& phi);
 Eigen::Matrix3d so3_right_jacobian_inverse(const Eigen::Vector3d& phi);
 
+/// d/dphi of weights^T J_r^-1(phi): row k is its derivative by phi_k.
+Eigen::Matrix3d so3_right_jacobian_inverse_derivative(const Eigen::Vector3d& phi,
+                                                      const Eigen::Vector3d& weights);
+
 /// Unit quaternion (w, x, y, z) with w >= 0; at w = 0 the first nonzero component is positive.
 Eigen::Vector4d quaternion_from_rotation(const Eigen::Matrix3d& R);
 

@@ -40,6 +40,9 @@ class ConvexQp {
   const SmallVector& x() const { return x_; }
   int active() const { return active_; }
   Active operator[](int i) const;
+
+  /// Whether the solution is at a side of this form.
+  bool holds(int form) const noexcept;
   int iterations() const { return iterations_; }
 
  private:
@@ -52,7 +55,6 @@ class ConvexQp {
   bool begin(const SmallMatrix& H, const SmallVector& g) noexcept;
   double violation(const FormsView& forms, const double* lower, const double* upper,
                    Side& side) const noexcept;
-  bool is_active(int form) const noexcept;
   Status take_in(const FormsView& forms, const Side& side, double short_of) noexcept;
   void append(const Side& side, double multiplier) noexcept;
   void drop(int i) noexcept;

@@ -5,6 +5,7 @@
 
 #include "arc_tangent.hpp"
 #include "damped.hpp"
+#include "dexterity.hpp"
 #include "quaternion.hpp"
 #include "walk.hpp"
 
@@ -199,6 +200,15 @@ void damped_inverse(const double* J, const double* mobility, int n, const double
   }
 }
 
+void dexterity(const DexterityArguments& arguments, double* values, double* gradient,
+               double* hessian) noexcept {
+  log_dexterity(arguments, values, gradient, hessian);
+}
+
+void spectrum(const DexterityArguments& arguments, double* values) noexcept {
+  dexterity_spectrum(arguments, values);
+}
+
 void arc_tangents(const double* sine, const double* cosine, long count, double* angle) noexcept {
   long i = 0;
   for (; i + kLanes <= count; i += kLanes) {
@@ -220,6 +230,7 @@ void arc_tangents(const double* sine, const double* cosine, long count, double* 
 }  // namespace
 
 extern const Kernels kKernels;
-const Kernels kKernels{place, pose, jacobian, poses, jacobians, damped_inverse, arc_tangents};
+const Kernels kKernels{place,          pose,      jacobian, poses,       jacobians,
+                       damped_inverse, dexterity, spectrum, arc_tangents};
 
 }  // namespace thing_kin::THING_KIN_LEVEL

@@ -6,6 +6,25 @@
 
 namespace thing_kin {
 
+/// What log_dexterity.hpp computes from: J (6, n) in column order, the joints in chain order of
+/// which those before `first` change nothing, factors of the columns or null.
+struct DexterityArguments {
+  const double* J;
+  const int* order;
+  int count;
+  int first;
+  const double* weights;
+  double condition_number;  ///< how much log kappa counts
+  double manipulability;    ///< how much -log M counts
+  int stride;               ///< of the Hessian
+
+  /// The rank is lost below this fraction of the largest eigenvalue.
+  static constexpr double kSingular = 6 * 0x1p-52;
+
+  /// Two eigenvalues nearer than this fraction count as this far apart.
+  static constexpr double kLeastGap = 1e-8;
+};
+
 /// The loops of forward kinematics and Jacobian, compiled for one instruction set. Numbers only:
 /// see lanes.hpp. Columns are x, y, z, origin of a frame, each padded to four numbers.
 struct Kernels {
@@ -36,6 +55,15 @@ struct Kernels {
   /// factors padded to four.
   void (*damped_inverse)(const double* J, const double* mobility, int n, const double* factors,
                          double lambda, const double* e, double* dq) noexcept;
+
+  /// values: the largest and the smallest eigenvalue of J W J^T, and the product of all six.
+  /// gradient, hessian: only the entries of joints from `first` on; not touched where the rank is
+  /// lost.
+  void (*log_dexterity)(const DexterityArguments& arguments, double* values, double* gradient,
+                        double* hessian) noexcept;
+
+  /// The values alone.
+  void (*dexterity_spectrum)(const DexterityArguments& arguments, double* values) noexcept;
 
   /// Angles of `count` pairs.
   void (*arc_tangents)(const double* sine, const double* cosine, long count,

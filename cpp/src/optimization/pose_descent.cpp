@@ -1,0 +1,377 @@
+#include "pose_descent.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+
+#include "thing_kin/kinematics/pose_curvature.hpp"
+
+namespace thing_kin {
+
+namespace {
+
+// The trust region, rad and m of any joint.
+constexpr double kFirstRadius = 0.5;
+constexpr double kLargestRadius = 1.5;
+constexpr double kLeastRadius = 1e-7;
+
+// A step this short, or of so little gain, with exact second derivatives leaves an error of its
+// square.
+constexpr double kLastStep = 1e-4;
+constexpr double kLastGain = 1e-8;
+
+// A step without them is one of many, each a fraction of the one before.
+constexpr double kLeastGain = 1e-12;
+
+// Shorter steps change nothing.
+constexpr double kNoStep = 1e-10;
+
+// Accept and enlarge: the fraction of the predicted gain that came true.
+constexpr double kAccept = 0.05;
+constexpr double kEnlarge = 0.7;
+
+// Curvature below this fraction of the largest is taken for it, so that the program is convex.
+constexpr double kLeastCurvature = 1e-6;
+
+constexpr double kFirstPenalty = 5.0;
+
+// The hand is brought back to within this, as PoseResidual counts (about a radian a third of the
+// arm's length).
+constexpr double kOnTarget = 1e-11;
+constexpr int kMostReturns = 12;
+constexpr int kMostArrivals = 60;
+
+IkProblem make_ik(const PosePlanner& planner, const JointBox& box, const Reach& reach,
+                  const SE3& target) {
+  const double length = reach.length() > 0.0 ? 0.3 * reach.length() : 1.0;
+  const double tolerance = kOnTarget * (1.0 + target.translation.norm());
+  return {planner.chain(),
+          planner.frame(),
+          PoseResidual(target, PoseWeights{}, length),
+          box,
+          JointVector::Ones(planner.chain().dof()),
+          tolerance,
+          tolerance};
+}
+
+}  // namespace
+
+PoseDescent::PoseDescent(const PosePlanner& planner, const SE3& target)
+    : planner_(planner), ik_(make_ik(planner, planner.box_, planner.reach_, target)) {
+  const int n = planner.chain_.dof();
+  const int count = planner.clearances_.size() + (planner.options_.base_goal ? 1 : 0);
+  for (PosePoint* point : {here_, there_}) {
+    point->slack.resize(count);
+  }
+  forms_.resize(n, n + count + 1);
+  lower_.resize(n + count + 1);
+  upper_.resize(n + count + 1);
+  mu_.resize(count);
+  inequalities_.reserve(static_cast<std::size_t>(count));
+  gradients_.resize(static_cast<std::size_t>(count));
+}
+
+// The base's disc as (R^2 - d^2)/(2 R), which has derivatives at its middle too and at its rim the
+// slope of a distance; then the clearances.
+double PoseDescent::slack_gradient(const PosePoint& point, int i,
+                                   JointVector& gradient) const noexcept {
+  const PosePlanOptions& options = planner_.options_;
+  if (!options.base_goal) {
+    return planner_.clearances_.gradient(point.posture, point.q.data(), i, gradient);
+  }
+  if (i > 0) {
+    return planner_.clearances_.gradient(point.posture, point.q.data(), i - 1, gradient);
+  }
+  const auto& base = *planner_.chain_.base_joints();
+  const double R = options.base_radius;
+  const Eigen::Vector2d way(point.q[base[0]] - options.base_goal->x(),
+                            point.q[base[1]] - options.base_goal->y());
+  gradient = JointVector::Zero(point.q.size());
+  gradient[base[0]] = -way.x() / R;
+  gradient[base[1]] = -way.y() / R;
+  return (R * R - way.squaredNorm()) / (2.0 * R);
+}
+
+void PoseDescent::measure(PosePoint& point) const noexcept {
+  const int first = planner_.options_.base_goal ? 1 : 0;
+  if (first == 1) {
+    JointVector unused;
+    point.slack[0] = slack_gradient(point, 0, unused);
+  }
+  for (int i = 0; i < planner_.clearances_.size(); ++i) {
+    point.slack[first + i] = planner_.clearances_.value(point.posture, point.q.data(), i);
+  }
+  point.violation = -point.slack.cwiseMin(0.0).sum();
+}
+
+double PoseDescent::violation_at(const JointVector& q) noexcept {
+  there_->q = q;
+  place_joints(planner_.chain_, q.data(), there_->posture);
+  measure(*there_);
+  return there_->violation;
+}
+
+bool PoseDescent::place(const JointVector& q, int most, PosePoint& point) noexcept {
+  IkPoint hand{q, {}};
+  int returns = 0;
+  if (!thing_kin::descend(ik_, most, hand, returns)) {
+    return false;
+  }
+  point.q = hand.q;
+  place_joints(planner_.chain_, point.q.data(), point.posture);
+  geometric_jacobian(planner_.chain_, point.posture, planner_.frame_, ReferenceFrame::kWorldAligned,
+                     point.J);
+  measure(point);
+  const JointVector& weights = planner_.options_.column_weights;
+  return log_dexterity(planner_.chain_, point.J, weights.size() > 0 ? weights.data() : nullptr,
+                       point.objective);
+}
+
+bool PoseDescent::begin(const JointVector& q) noexcept {
+  mu_.setZero();
+  nu_ = JointVector::Zero(q.size());
+  radius_ = kFirstRadius;
+  penalty_ = kFirstPenalty;
+  return place(q, kMostArrivals, *here_);
+}
+
+// The null space of J, and the Lagrangian's gradient and Hessian in it. The pose's multipliers are
+// those of least squares, given those of the inequalities of the step before.
+void PoseDescent::reduce() noexcept {
+  rows_.factor(here_->J);
+  rows_.null_space(Z_);
+  const JointVector& gradient = here_->objective.gradient;
+  SmallMatrix W = here_->objective.hessian;
+  JointVector pull = gradient - nu_;
+  JointVector along;
+  for (int i = 0; i < static_cast<int>(mu_.size()); ++i) {
+    if (mu_[i] > 0.0) {
+      slack_gradient(*here_, i, along);
+      pull -= mu_[i] * along;
+      const int first = planner_.options_.base_goal ? 1 : 0;
+      if (i < first) {
+        const auto& base = *planner_.chain_.base_joints();
+        W(base[0], base[0]) += mu_[i] / planner_.options_.base_radius;
+        W(base[1], base[1]) += mu_[i] / planner_.options_.base_radius;
+      } else {
+        planner_.clearances_.add_hessian(here_->posture, here_->q.data(), i - first, -mu_[i], W);
+      }
+    }
+  }
+  rows_.apply_q_transposed(pull.data());
+  Vector6 lambda = pull.head<6>();
+  rows_.solve_r(lambda.data());
+  add_pose_curvature(planner_.chain_, here_->J, -lambda, W);
+  // Small: coefficient by coefficient is quicker than by blocks.
+  g_.noalias() = Z_.transpose().lazyProduct(gradient);
+  const SmallMatrix WZ = W.lazyProduct(Z_);
+  H_.noalias() = Z_.transpose().lazyProduct(WZ);
+}
+
+// What each joint may do within its sides and the trust region, and what inequalities may come into
+// play. An endless joint has no sides: it goes on at the other end.
+void PoseDescent::collect_forms() noexcept {
+  const Eigen::Index n = here_->q.size();
+  const Eigen::Index k = Z_.cols();
+  forms_.topLeftCorner(k, n) = Z_.transpose();
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const bool endless = ik_.box.is_endless(j);
+    lower_[j] = endless ? -radius_ : std::max(-radius_, ik_.box.lower(j) - here_->q[j]);
+    upper_[j] = endless ? radius_ : std::min(radius_, ik_.box.upper(j) - here_->q[j]);
+  }
+  inequalities_.clear();
+  const double way = radius_ * std::sqrt(static_cast<double>(n));
+  for (int i = 0; i < static_cast<int>(mu_.size()); ++i) {
+    const std::size_t place = inequalities_.size();
+    JointVector& along = gradients_[place];
+    const double slack = slack_gradient(*here_, i, along);
+    if (slack > way * along.norm()) {
+      continue;
+    }
+    const Eigen::Index column = n + static_cast<Eigen::Index>(place);
+    forms_.col(column).head(k).noalias() = Z_.transpose() * along;
+    lower_[column] = -slack;
+    upper_[column] = std::numeric_limits<double>::infinity();
+    inequalities_.push_back(i);
+  }
+}
+
+// Curvature across sides that were active in the last step, if they hold again costs nothing and
+// may be all that is missing to convexity: |a . z - b|^2 vanishes on them.
+bool PoseDescent::stiffen(const FormsView& forms) noexcept {
+  const double stiffness = 10.0 * H_.cwiseAbs().maxCoeff();
+  const auto n = static_cast<int>(here_->q.size());
+  SmallMatrix H = H_;
+  SmallVector g = g_;
+  int count = 0;
+  const auto add = [&](int form, double bound) {
+    const auto a = forms.col(form);
+    const double weight = stiffness / std::max(a.squaredNorm(), kLeastCurvature);
+    H += weight * a * a.transpose();
+    g -= weight * bound * a;
+    stiffened_[static_cast<std::size_t>(count++)] = form;
+  };
+  for (int j = 0; j < n && count < kMaxDof; ++j) {
+    if (nu_[j] != 0.0) {
+      add(j, nu_[j] > 0.0 ? lower_[j] : upper_[j]);
+    }
+  }
+  for (int i = 0; std::cmp_less(i, inequalities_.size()) && count < kMaxDof; ++i) {
+    if (mu_[inequalities_[static_cast<std::size_t>(i)]] > 0.0) {
+      add(n + i, lower_[n + i]);
+    }
+  }
+  if (count == 0 ||
+      qp_.minimize(H, g, forms, lower_.data(), upper_.data()) != ConvexQp::Status::kOptimal) {
+    return false;
+  }
+  return std::all_of(stiffened_.begin(), std::next(stiffened_.begin(), count),
+                     [&](int form) { return qp_.holds(form); });
+}
+
+// The same with the size of each curvature instead of itself.
+void PoseDescent::convexify() noexcept {
+  const Eigen::SelfAdjointEigenSolver<SmallMatrix> solver(H_);
+  const SmallVector curvature = solver.eigenvalues().cwiseAbs();
+  const double least = std::max(kLeastCurvature * curvature.maxCoeff(), 1e-12);
+  H_ = solver.eigenvectors() * curvature.cwiseMax(least).asDiagonal() *
+       solver.eigenvectors().transpose();
+}
+
+bool PoseDescent::minimize() noexcept {
+  const Eigen::Index k = Z_.cols();
+  const Eigen::Index count = here_->q.size() + static_cast<Eigen::Index>(inequalities_.size());
+  const auto forms = forms_.topLeftCorner(k, count);
+  ConvexQp::Status status = qp_.minimize(H_, g_, forms, lower_.data(), upper_.data());
+  exact_ = status != ConvexQp::Status::kNotConvex;
+  if (!exact_ && stiffen(forms)) {
+    exact_ = true;
+    status = ConvexQp::Status::kOptimal;
+  } else if (!exact_) {
+    convexify();
+    status = qp_.minimize(H_, g_, forms, lower_.data(), upper_.data());
+  }
+  if (status == ConvexQp::Status::kOptimal) {
+    z_ = qp_.x();
+    remember_multipliers();
+    return true;
+  }
+  return status == ConvexQp::Status::kInfeasible && relax();
+}
+
+// Where no step keeps all inequalities: one more variable t >= 0 that they may all fall short by,
+// at a price.
+bool PoseDescent::relax() noexcept {
+  const Eigen::Index n = here_->q.size();
+  const Eigen::Index k = Z_.cols();
+  const Eigen::Index count = n + static_cast<Eigen::Index>(inequalities_.size());
+  if (k + 1 > kMaxDof || k + 1 > forms_.rows()) {
+    return false;
+  }
+  SmallMatrix H = SmallMatrix::Zero(k + 1, k + 1);
+  H.topLeftCorner(k, k) = H_;
+  const double price = std::max(10.0 * penalty_, 100.0 * (1.0 + g_.cwiseAbs().maxCoeff()));
+  H(k, k) = 1e-3 * price;
+  SmallVector g(k + 1);
+  g << g_, price;
+  forms_.row(k).head(n).setZero();
+  forms_.row(k).segment(n, count - n).setOnes();
+  forms_.col(count).head(k).setZero();
+  forms_(k, count) = 1.0;
+  lower_[count] = 0.0;
+  upper_[count] = std::numeric_limits<double>::infinity();
+  const auto forms = forms_.topLeftCorner(k + 1, count + 1);
+  if (qp_.minimize(H, g, forms, lower_.data(), upper_.data()) != ConvexQp::Status::kOptimal) {
+    return false;
+  }
+  z_ = qp_.x().head(k);
+  exact_ = false;
+  remember_multipliers();
+  return true;
+}
+
+void PoseDescent::remember_multipliers() noexcept {
+  const auto n = static_cast<int>(here_->q.size());
+  mu_.setZero();
+  nu_.setZero();
+  for (int i = 0; i < qp_.active(); ++i) {
+    const ConvexQp::Active active = qp_[i];
+    const auto beyond = static_cast<std::size_t>(active.form - n);
+    if (active.form < n) {
+      nu_[active.form] = active.multiplier;
+    } else if (beyond < inequalities_.size()) {
+      mu_[inequalities_[beyond]] = active.multiplier;
+    }
+  }
+  penalty_ = std::max(penalty_, 1.5 * mu_.sum());
+}
+
+double PoseDescent::predicted_violation() const noexcept {
+  double sum = 0.0;
+  const Eigen::Index n = here_->q.size();
+  for (std::size_t i = 0; i < inequalities_.size(); ++i) {
+    const Eigen::Index column = n + static_cast<Eigen::Index>(i);
+    const double along = forms_.col(column).head(z_.size()).dot(z_);
+    sum += std::max(0.0, lower_[column] - along);
+  }
+  return sum;
+}
+
+PoseDescent::Step PoseDescent::step() noexcept {
+  reduce();
+  collect_forms();
+  if (!minimize()) {
+    return Step::kStuck;
+  }
+  const JointVector dq = Z_.lazyProduct(z_);
+  const double length = dq.cwiseAbs().maxCoeff();
+  const double gain =
+      -(g_.dot(z_) + 0.5 * z_.dot(H_ * z_)) + penalty_ * (here_->violation - predicted_violation());
+  const bool feasible = is_feasible();
+  if (length <= kNoStep || (feasible && gain <= kLeastGain)) {
+    return Step::kLast;
+  }
+  JointVector q = here_->q + dq;
+  for (Eigen::Index j = 0; j < q.size(); ++j) {
+    q[j] = ik_.box.inside(j, q[j]);
+  }
+  if (!place(q, kMostReturns, *there_)) {
+    radius_ = 0.25 * length;
+    return Step::kRefused;
+  }
+  const double came = here_->objective.value - there_->objective.value +
+                      penalty_ * (here_->violation - there_->violation);
+  const bool last = exact_ && (length <= kLastStep || (feasible && gain <= kLastGain)) &&
+                    there_->violation <= planner_.options_.tolerance;
+  if (!last && !(came >= kAccept * gain)) {
+    radius_ = 0.3 * length;
+    return Step::kRefused;
+  }
+  if (came > kEnlarge * gain && length > 0.7 * radius_) {
+    radius_ = std::min(2.0 * radius_, kLargestRadius);
+  }
+  std::swap(here_, there_);
+  return last ? Step::kLast : Step::kTaken;
+}
+
+bool PoseDescent::descend(int most) noexcept {
+  if (here_->q.size() == 6) {  // nothing is free
+    return is_feasible();
+  }
+  for (int i = 0; i < most; ++i) {
+    ++iterations_;
+    const Step outcome = step();
+    if (outcome == Step::kLast) {
+      return is_feasible();
+    }
+    if (outcome == Step::kStuck || radius_ < kLeastRadius) {
+      return false;
+    }
+  }
+  return false;
+}
+
+}  // namespace thing_kin

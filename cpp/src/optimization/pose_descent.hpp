@@ -1,0 +1,88 @@
+#pragma once
+
+#include <vector>
+
+#include "thing_kin/inverse/ik_descent.hpp"
+#include "thing_kin/kinematics/log_dexterity.hpp"
+#include "thing_kin/linalg/convex_qp.hpp"
+#include "thing_kin/linalg/row_qr.hpp"
+#include "thing_kin/optimization/pose_plan.hpp"
+
+namespace thing_kin {
+
+/// A configuration with the hand at the target, and what is known of it.
+struct PosePoint {
+  JointVector q;
+  Posture posture;
+  Jacobian J;
+  LogDexterity objective;
+  Eigen::VectorXd slack;   // of the inequalities: the base's disc, if there is one; the clearances
+  double violation = 0.0;  // the sum of what they fall short of zero
+};
+
+/// One descent on the configurations that have the hand at the target.
+class PoseDescent {
+ public:
+  PoseDescent(const PosePlanner& planner, const SE3& target);
+  PoseDescent(const PoseDescent&) = delete;
+  PoseDescent& operator=(const PoseDescent&) = delete;
+  PoseDescent(PoseDescent&&) = delete;
+  PoseDescent& operator=(PoseDescent&&) = delete;
+  ~PoseDescent() = default;
+
+  /// Brings the hand to the target from q, by inverse kinematics within the box. False if it stalls
+  /// or the Jacobian there has no full rank.
+  bool begin(const JointVector& q) noexcept;
+
+  /// Descends from there. True: point() is feasible and stationary.
+  bool descend(int most) noexcept;
+
+  const PosePoint& point() const { return *here_; }
+  bool is_feasible() const { return here_->violation <= planner_.options_.tolerance; }
+  int iterations() const { return iterations_; }
+  const IkProblem& ik() const { return ik_; }
+
+  /// The sum of the inequalities' violations at q.
+  double violation_at(const JointVector& q) noexcept;
+
+ private:
+  enum class Step : std::uint8_t { kTaken, kRefused, kLast, kStuck };
+
+  bool place(const JointVector& q, int most, PosePoint& point) noexcept;
+  void measure(PosePoint& point) const noexcept;
+  double slack_gradient(const PosePoint& point, int i, JointVector& gradient) const noexcept;
+  void reduce() noexcept;
+  void collect_forms() noexcept;
+  bool minimize() noexcept;
+  bool stiffen(const FormsView& forms) noexcept;
+  void convexify() noexcept;
+  bool relax() noexcept;
+  void remember_multipliers() noexcept;
+  Step step() noexcept;
+  double predicted_violation() const noexcept;
+
+  const PosePlanner& planner_;
+  IkProblem ik_;
+  std::array<PosePoint, 2> points_;
+  PosePoint* here_ = points_.data();
+  PosePoint* there_ = points_.data() + 1;
+  int iterations_ = 0;
+
+  // The quadratic program of a step: z in the null space of J.
+  SmallMatrix Z_, H_;
+  SmallVector g_, z_;
+  bool exact_ = true;  // H is the Lagrangian's own Hessian
+  RowQr rows_;
+  ConvexQp qp_;
+  Eigen::MatrixXd forms_;
+  Eigen::VectorXd lower_, upper_;
+  std::vector<int> inequalities_;       // of forms beyond the joints': which slack
+  std::vector<JointVector> gradients_;  // of them
+  std::array<int, kMaxDof> stiffened_;
+  Eigen::VectorXd mu_;  // of all slacks
+  JointVector nu_;      // of the joints' sides
+  double radius_ = 0.0;
+  double penalty_ = 0.0;
+};
+
+}  // namespace thing_kin

@@ -1,0 +1,202 @@
+#include "thing_kin/optimization/pose_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pose_search.hpp"
+#include "thing_kin/core/error.hpp"
+
+namespace thing_kin {
+
+namespace {
+
+// Constraints before the clearances, see describe().
+constexpr int kPosition = 0;
+constexpr int kRotation = 1;
+constexpr int kLimits = 2;
+constexpr int kDisc = 3;
+constexpr int kFirstClearance = 4;
+
+PosePlanOptions checked(PosePlanOptions options, const Chain& chain) {
+  options.check(chain);
+  return options;
+}
+
+JointBox make_box(const Chain& chain, const PosePlanOptions& options) {
+  JointBox box(chain);
+  if (const auto& base = chain.base_joints()) {
+    if (options.base_goal) {
+      box.narrow((*base)[0], options.base_goal->x() - options.base_radius,
+                 options.base_goal->x() + options.base_radius);
+      box.narrow((*base)[1], options.base_goal->y() - options.base_radius,
+                 options.base_goal->y() + options.base_radius);
+    }
+    if (options.heading) {
+      box.narrow((*base)[2], (*options.heading)[0], (*options.heading)[1]);
+    }
+  }
+  return box;
+}
+
+std::vector<Disc> discs_of(const std::vector<Obstacle>& obstacles) {
+  std::vector<Disc> discs;
+  for (const Obstacle& obstacle : obstacles) {
+    if (const auto* disc = std::get_if<Disc>(&obstacle)) {
+      discs.push_back(*disc);
+    }
+  }
+  return discs;
+}
+
+void require_base(const Chain& chain, const char* argument) {
+  if (!chain.base_joints()) {
+    throw InvalidArgument(argument, "one for a robot without a base", "None");
+  }
+}
+
+}  // namespace
+
+void PosePlanOptions::check(const Chain& chain) const {
+  if (chain.dof() < 6) {
+    throw InvalidArgument("robot", std::to_string(chain.dof()).append(" joints"),
+                          "at least six: with fewer sqrt(kappa/M) is infinite");
+  }
+  if (base_goal) {
+    require_base(chain, "base_goal");
+    if (!base_goal->allFinite()) {
+      throw InvalidArgument("base_goal", "a number that is not finite", "(x, y), m");
+    }
+    if (!(base_radius > 0.0) || !std::isfinite(base_radius)) {
+      throw InvalidArgument("base_radius", text(base_radius), "a finite number above 0, m");
+    }
+  }
+  if (heading) {
+    require_base(chain, "heading");
+    const auto& [low, high] = *heading;
+    if (!std::isfinite(low) || !std::isfinite(high) || low > high) {
+      throw InvalidArgument("heading", text(low).append(" to ").append(text(high)),
+                            "two finite angles in rising order, rad");
+    }
+  }
+  if (column_weights.size() > 0 &&
+      (!column_weights.allFinite() || column_weights.minCoeff() < 0.0)) {
+    throw InvalidArgument("jacobian", "a weight that is negative or not finite",
+                          "weights at least 0, one a joint");
+  }
+  if (!(tolerance > 0.0)) {
+    throw InvalidArgument("tolerance", text(tolerance), "a number above 0");
+  }
+  const auto at_least = [](const char* name, int value, int least) {
+    if (value < least) {
+      throw InvalidArgument(name, std::to_string(value),
+                            std::string("at least ").append(std::to_string(least)));
+    }
+  };
+  at_least("max_iterations", max_iterations, 1);
+  at_least("max_restarts", max_restarts, 0);
+  at_least("samples", samples, 0);
+  at_least("descents", descents, 1);
+}
+
+PosePlanner::PosePlanner(const Chain& chain, int frame, PosePlanOptions options,
+                         const LinkSpheres& spheres, std::vector<Obstacle> obstacles)
+    : chain_(chain),
+      frame_(frame),
+      options_(checked(std::move(options), chain)),
+      box_(make_box(chain, options_)),
+      reach_(chain, frame),
+      discs_(discs_of(obstacles)),
+      clearances_(chain, spheres, std::move(obstacles)),
+      closed_form_(ClosedFormIk::find(chain, frame)),
+      sequence_(chain.dof(), options_.rng) {
+  for (Eigen::Index j = 0; j < chain.dof(); ++j) {
+    if (box_.lower(j) > box_.upper(j)) {
+      const auto i = static_cast<std::size_t>(j);
+      throw InvalidArgument("base_goal",
+                            std::string("a disc or heading outside the limits of joint ")
+                                .append(quoted(chain.joint_names()[i])),
+                            "one that meets them");
+    }
+  }
+}
+
+PosePlan PosePlanner::solve(const SE3& target, const double* seed) const {
+  return PoseSearch(*this, target, seed).run();
+}
+
+int PosePlanner::constraints() const { return kFirstClearance + clearances_.size(); }
+
+double PosePlanner::objective(const JointVector& q) const noexcept {
+  Posture posture;
+  place_joints(chain_, q.data(), posture);
+  Jacobian J;
+  geometric_jacobian(chain_, posture, frame_, ReferenceFrame::kWorldAligned, J);
+  const JointVector& weights = options_.column_weights;
+  return std::exp(log_dexterity(J, weights.size() > 0 ? weights.data() : nullptr));
+}
+
+double PosePlanner::violation(int i, const JointVector& q, double position_error,
+                              double rotation_error) const noexcept {
+  switch (i) {
+    case kPosition:
+      return position_error;
+    case kRotation:
+      return rotation_error;
+    case kLimits: {
+      double most = 0.0;
+      for (Eigen::Index j = 0; j < q.size(); ++j) {
+        most = std::max({most, box_.lower(j) - q[j], q[j] - box_.upper(j)});
+      }
+      return most;
+    }
+    case kDisc: {
+      if (!options_.base_goal) {
+        return 0.0;
+      }
+      const auto& base = *chain_.base_joints();
+      const Eigen::Vector2d at(q[base[0]], q[base[1]]);
+      return std::max(0.0, (at - *options_.base_goal).norm() - options_.base_radius);
+    }
+    default: {
+      Posture posture;
+      place_joints(chain_, q.data(), posture);
+      return std::max(0.0, -clearances_.value(posture, q.data(), i - kFirstClearance));
+    }
+  }
+}
+
+std::string PosePlanner::describe(int constraint) const {
+  switch (constraint) {
+    case kPosition:
+      return "the hand's position";
+    case kRotation:
+      return "the hand's orientation";
+    case kLimits:
+      return "joint limits";
+    case kDisc:
+      return "the base's distance from its goal";
+    default:
+      return std::string("the clearance of ")
+          .append(clearances_.describe(constraint - kFirstClearance));
+  }
+}
+
+bool PosePlanner::is_base_clear(const Eigen::Vector2d& base) const noexcept {
+  return std::ranges::all_of(
+      discs_, [&](const Disc& disc) { return (base - disc.center).norm() >= disc.radius; });
+}
+
+std::string message(const PosePlanner& planner, const PosePlan& plan) {
+  if (plan.success()) {
+    return "converged";
+  }
+  const char* unit = plan.worst == kRotation || plan.worst == kLimits ? "" : " m";
+  std::string text = to_string(plan.status);
+  return text.append(": ")
+      .append(planner.describe(plan.worst))
+      .append(" is off by ")
+      .append(thing_kin::text(plan.constraint_violation))
+      .append(plan.worst == kRotation ? " rad" : unit);
+}
+
+}  // namespace thing_kin

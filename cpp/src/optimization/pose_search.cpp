@@ -1,0 +1,146 @@
+#include "pose_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "thing_kin/kinematics/pose_error.hpp"
+
+namespace thing_kin {
+
+namespace {
+
+// What a metre of violation costs a start, beside log sqrt(kappa/M).
+constexpr double kViolationPrice = 10.0;
+
+JointVector clamped(const JointBox& box, const double* seed, Eigen::Index n) {
+  JointVector q = Eigen::Map<const Eigen::VectorXd>(seed, n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    q[j] = box.inside(j, q[j]);
+  }
+  return q;
+}
+
+}  // namespace
+
+PoseSearch::PoseSearch(const PosePlanner& planner, const SE3& target, const double* seed)
+    : planner_(planner),
+      target_(target),
+      seed_(clamped(planner.box_, seed, planner.chain_.dof())),
+      descent_(planner, target),
+      starts_(planner, descent_.ik(), target_, seed_),
+      best_value_(std::numeric_limits<double>::infinity()),
+      best_violation_(std::numeric_limits<double>::infinity()),
+      start_(std::chrono::steady_clock::now()) {
+  best_.q = seed_;
+}
+
+// Feasible before infeasible, then by the objective; infeasible by the violation.
+void PoseSearch::keep_if_better() {
+  const PosePoint& point = descent_.point();
+  const bool feasible = descent_.is_feasible();
+  const bool better = feasible ? !found_ || point.objective.value < best_value_
+                               : !found_ && point.violation < best_violation_;
+  if (better) {
+    best_.q = point.q;
+    best_value_ = point.objective.value;
+    best_violation_ = point.violation;
+  }
+}
+
+// True: the descent converged to a feasible point.
+bool PoseSearch::try_from(const JointVector& q) {
+  if (!descent_.begin(q)) {
+    return false;
+  }
+  const int before = descent_.iterations();
+  const bool converged = descent_.descend(planner_.options_.max_iterations);
+  out_of_iterations_ |= descent_.iterations() - before == planner_.options_.max_iterations;
+  keep_if_better();
+  found_ |= converged;
+  return converged;
+}
+
+void PoseSearch::search_near() {
+  if (try_from(seed_)) {
+    return;
+  }
+  Starts starts;
+  for (int i = 0; i < planner_.options_.max_restarts && !starts_.exhausted(); ++i) {
+    const int count = starts_.next(starts);
+    for (int branch = 0; branch < count; ++branch) {  // nearest to the seed first
+      ++best_.restarts;
+      if (try_from(starts[static_cast<std::size_t>(branch)])) {
+        return;
+      }
+    }
+  }
+}
+
+std::vector<PoseSearch::Candidate> PoseSearch::sample() {
+  std::vector<Candidate> candidates;
+  const JointVector& weights = planner_.options_.column_weights;
+  Starts starts;
+  Posture posture;
+  Jacobian J;
+  for (int i = 0; i < planner_.options_.samples && !starts_.exhausted(); ++i) {
+    const int count = starts_.next(starts);
+    for (int branch = 0; branch < count; ++branch) {
+      const JointVector& q = starts[static_cast<std::size_t>(branch)];
+      place_joints(planner_.chain_, q.data(), posture);
+      geometric_jacobian(planner_.chain_, posture, planner_.frame_, ReferenceFrame::kWorldAligned,
+                         J);
+      const double value = log_dexterity(J, weights.size() > 0 ? weights.data() : nullptr);
+      candidates.push_back({q, value + kViolationPrice * descent_.violation_at(q)});
+    }
+  }
+  std::ranges::stable_sort(candidates, {}, &Candidate::rank);
+  return candidates;
+}
+
+void PoseSearch::search_all() {
+  try_from(seed_);
+  const std::vector<Candidate> candidates = sample();
+  const auto most = static_cast<std::size_t>(planner_.options_.descents);
+  for (std::size_t i = 0; i < candidates.size() && (i < most || !found_); ++i) {
+    ++best_.restarts;
+    try_from(candidates[i].q);
+  }
+}
+
+// Success is what forward kinematics, the box and the clearances say of q, not the descent's word.
+void PoseSearch::verify(PosePlan& plan) const {
+  const Vector6 error =
+      pose_error(forward_kinematics(planner_.chain_, plan.q.data(), planner_.frame_), target_);
+  plan.position_error = error.head<3>().norm();
+  plan.rotation_error = error.tail<3>().norm();
+  plan.constraint_violation = -1.0;
+  for (int i = 0; i < planner_.constraints(); ++i) {
+    const double violation =
+        planner_.violation(i, plan.q, plan.position_error, plan.rotation_error);
+    if (violation > plan.constraint_violation) {
+      plan.constraint_violation = violation;
+      plan.worst = i;
+    }
+  }
+  const bool feasible = plan.constraint_violation <= planner_.options_.tolerance;
+  plan.status = feasible && found_   ? SolveStatus::kConverged
+                : out_of_iterations_ ? SolveStatus::kBudget
+                                     : SolveStatus::kInfeasible;
+}
+
+PosePlan PoseSearch::run() {
+  if (planner_.options_.global) {
+    search_all();
+  } else {
+    search_near();
+  }
+  planner_.box_.wind_towards(seed_, best_.q);
+  best_.iterations = descent_.iterations();
+  best_.objective = planner_.objective(best_.q);
+  verify(best_);
+  best_.time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  return best_;
+}
+
+}  // namespace thing_kin
