@@ -260,7 +260,7 @@ BASE_PATH = np.stack([Q[6:], Q[6:]])
 
 
 def path_with(name: str) -> Callable[[Any], Any]:
-    known: dict[str, Any] = {"poses": POSES, "seed": Q, "base_path": BASE_PATH, "heading": 1.0}
+    known: dict[str, Any] = {"poses": POSES, "seed": Q, "base_path": BASE_PATH}
     return lambda value: tk.plan_path(ROBOT, **{**known, "max_iterations": 2, name: value}).q
 
 
@@ -278,7 +278,7 @@ def follower_with(name: str) -> Callable[[Any], Any]:
 
 PATH = [
     Argument("plan_path", "poses", POSES, path_with("poses"), moderate=True),
-    Argument("plan_path", "seed", Q, path_with("seed"), moderate=True),
+    Argument("Path seed", "seed", Q, path_with("seed"), moderate=True),
     Argument("plan_path", "base_path", BASE_PATH, path_with("base_path"), moderate=True),
     Argument("plan_path", "heading", np.array([-1.0, 1.0]), path_with("heading"), moderate=True),
     Argument("plan_path", "max_joint_step", np.ones(9), path_with("max_joint_step"), infinite=True),
@@ -304,23 +304,27 @@ ARGUMENTS = [
 ]
 
 # None means "not given" to these.
-OPTIONAL = {
-    "damping",
-    "mount",
-    "rpy",
-    "null_motion",
-    "previous",
-    "axis",
-    "lower",
-    "upper",
-    "step_limit",
-} | {
-    "velocity_limits",
-    "acceleration_limits",
-    "quaternion",
-    "point",
-    "seed",
-    "weights",
-    "joint_weights",
-    "max_step",
-} | {"base_path", "heading", "max_joint_step", "warm_start"}
+OPTIONAL = (
+    {
+        "damping",
+        "mount",
+        "rpy",
+        "null_motion",
+        "previous",
+        "axis",
+        "lower",
+        "upper",
+        "step_limit",
+    }
+    | {
+        "velocity_limits",
+        "acceleration_limits",
+        "quaternion",
+        "point",
+        "seed",
+        "weights",
+        "joint_weights",
+        "max_step",
+    }
+    | {"base_path", "heading", "max_joint_step", "warm_start"}
+)

@@ -101,7 +101,7 @@ def test_arrays(argument: Argument, data: st.DataObject) -> None:
 @given(value=plain)
 def test_what_is_no_array(argument: Argument, value: Any) -> None:
     required = argument.label.startswith(
-        ("rotation", "JointRange")
+        ("rotation", "JointRange", "Path")
     )  # here it has the name of an option
     if value is None and argument.name in OPTIONAL and not required:
         assert is_right(argument.call(None), argument.infinite)

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from oracles import assert_close
 
 import thing_kin as tk
+from oracles import assert_close
 
 casadi = pytest.importorskip("casadi")
 

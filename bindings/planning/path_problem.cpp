@@ -24,6 +24,11 @@ JointVector read_positive(const OptionalArray& argument, const char* name, int n
   return values;
 }
 
+bool is_number(const py::object& argument) {
+  return PyFloat_Check(argument.ptr()) != 0 || PyLong_Check(argument.ptr()) != 0 ||
+         (py::hasattr(argument, "ndim") && argument.attr("ndim").equal(py::int_(0)));
+}
+
 LinkSpheres read_spheres(const SpheresLike& argument, const std::vector<Obstacle>& obstacles) {
   if (!argument.is_none()) {
     if (!py::isinstance<LinkSpheres>(argument)) {
@@ -84,8 +89,7 @@ Heading Heading::read(const OptionalArray& argument, const PathProblem& problem,
   }
   check_omni_base(problem.chain());
   heading.given = true;
-  py::object converted = py::module_::import("numpy").attr("asarray")(argument);
-  if (converted.attr("ndim").cast<int>() == 0) {
+  if (is_number(argument)) {
     const double half = *python::read(argument, "heading", {}, false).data;
     if (!(half >= 0.0)) {
       throw InvalidArgument("heading", text(half), "a number >= 0, rad");
