@@ -240,6 +240,77 @@ CLOSED_FORM = [
         moderate=True,
     ),
 ]
+SHAPE = tk.LinkSpheres(ROBOT, [("tool", (0.0, 0.0, 0.1), 0.1), ("forearm", (0.2, 0.0, 0.0), 0.1)])
+BALL = tk.Sphere((0.1, 0.2, 0.3), 0.2)
+
+
+def obstacle(make: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    return lambda value: make(value).signed_distance(POINT)
+
+
+OBSTACLES = [
+    Argument("Disc", "center", XI[:2], obstacle(lambda v: tk.Disc(v, 0.1))),
+    Argument("Sphere", "center", XI[:3], obstacle(lambda v: tk.Sphere(v, 0.1))),
+    Argument("Capsule", "start", XI[:3], obstacle(lambda v: tk.Capsule(v, (0, 0, 0), 0.1))),
+    Argument("Capsule", "end", XI[:3], obstacle(lambda v: tk.Capsule((0, 0, 0), v, 0.1))),
+    Argument("Box", "size", XI[:3], obstacle(lambda v: tk.Box(size=v))),
+    Argument("Box", "center", XI[:3], obstacle(lambda v: tk.Box(size=XI[:3], center=v))),
+    Argument("Box", "rpy", XI[3:], obstacle(lambda v: tk.Box(size=XI[:3], rpy=v))),
+    Argument("Box", "pose", T, obstacle(lambda v: tk.Box(size=XI[:3], pose=v))),
+    Argument("HalfSpace", "normal", XI[:3], obstacle(lambda v: tk.HalfSpace(v, offset=0.5))),
+    Argument("HalfSpace", "point", XI[:3], obstacle(lambda v: tk.HalfSpace((0, 3, 4), point=v))),
+    Argument("signed_distance", "points", XI[:3], BALL.signed_distance),
+    Argument("centers", "q", Q, lambda v: SHAPE.centers(ROBOT, v), moderate=True),
+]
+
+
+def term(make: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    def call(value: Any) -> Any:
+        made = make(value)
+        return np.append(made.evaluate(ROBOT, Q)[0], made.hessian(ROBOT, Q))
+
+    return call
+
+
+def pose_term(q: Any) -> Any:
+    value, J = tk.terms.Pose(T).evaluate(ROBOT, q)
+    return np.append(J, value[..., None], axis=-1)
+
+
+TERMS = [
+    Argument("terms.Pose", "target", T, term(tk.terms.Pose)),
+    Argument("terms.Position", "target", XI[:3], term(tk.terms.Position)),
+    Argument(
+        "terms.Position", "point", XI[:3], term(lambda v: tk.terms.Position((0, 0, 0), point=v))
+    ),
+    Argument("terms.Orientation", "target", T[:3, :3], term(tk.terms.Orientation)),
+    Argument("terms.Cone", "axis", XI[:3], term(lambda v: tk.terms.OrientationCone(v, (0, 0, 1)))),
+    Argument(
+        "terms.Cone", "direction", XI[:3], term(lambda v: tk.terms.OrientationCone((0, 0, 1), v))
+    ),
+    Argument("terms.BaseDistance", "center", XI[:2], term(tk.terms.BaseDistance)),
+    Argument("terms.BasePosition", "target", XI[:2], term(tk.terms.BasePosition)),
+    Argument("terms.SeedDistance of", "seed", Q, term(tk.terms.SeedDistance)),
+    Argument(
+        "terms.SeedDistance", "weights", np.ones(9), term(lambda v: tk.terms.SeedDistance(Q, v))
+    ),
+    Argument(
+        "terms.Dexterity",
+        "jacobian",
+        np.ones(9),
+        term(lambda v: tk.terms.Dexterity(jacobian=v)),
+        moderate=True,
+    ),
+    Argument("terms evaluate", "q", Q, pose_term, moderate=True),
+    Argument("terms hessian", "q", Q, lambda v: tk.terms.Pose(T).hessian(ROBOT, v), moderate=True),
+    Argument(
+        "terms hessian",
+        "weights",
+        XI,
+        lambda v: tk.terms.Pose(T).hessian(ROBOT, Q, v),
+        moderate=True,
+    ),
+]
 XYZW = np.array([0.5, -0.5, 0.5, 0.5])
 PIN_THING = interop.to_pinocchio(ROBOT)
 INTEROP = [
@@ -254,6 +325,69 @@ INTEROP = [
     ),
     Argument("PinocchioModel", "q", Q, PIN_THING.q),
     Argument("PinocchioModel", "v", Q, PIN_THING.from_v),
+]
+TRAJECTORY = tk.Trajectory(
+    ["a", "b"], [0.0, 0.5, 2.0], np.arange(6.0).reshape(3, 2), np.zeros((3, 2)), np.zeros((3, 2))
+)
+
+
+def move_with(name: str) -> Callable[[Any], Any]:
+    known = {"q0": Q[:6], "q1": Q[:6] + 0.3}
+    return lambda value: tk.move_to(ARM, **{**known, name: value}).positions
+
+
+TIMING = [
+    Argument("Trajectory.sample", "t", XI, lambda t: TRAJECTORY.sample(t)[0], moderate=True),
+    Argument("move_to", "q0", Q[:6], move_with("q0"), moderate=True),
+    Argument("move_to", "q1", Q[:6], move_with("q1"), moderate=True),
+    *(
+        Argument("move_to", name, np.full(6, 2.0), move_with(name), infinite=True)
+        for name in ("velocity_limits", "acceleration_limits", "jerk_limits")
+    ),
+]
+SQUARE_OF_3 = tk.terms.Function(lambda x: x**2, lambda x: 2 * np.diag(x), size=3, n=3)
+SQUARE = tk.terms.Function(lambda x: x**2, lambda x: 2 * np.diag(x), size=3, name="square")
+
+
+def problem_with(method: str, name: str, **others: Any) -> Callable[[Any], Any]:
+    """What a problem has of a value that a constraint was given."""
+
+    def call(value: Any) -> Any:
+        problem = tk.Problem(n=3)
+        getattr(problem, method)(SQUARE, **others, **{name: value})
+        side = "upper" if name == "upper" else "lower"
+        return getattr(problem, f"constraint_{side}")
+
+    return call
+
+
+def bounded(name: str) -> Callable[[Any], Any]:
+    return lambda value: getattr(tk.Problem(n=3, **{name: value}), name)
+
+
+def solved(value: Any) -> Any:
+    problem = tk.Problem(n=3, lower=-1.0)
+    problem.minimize(SQUARE)
+    return tk.sqp(problem, value, minimizer="qp", max_iterations=3).x
+
+
+ABC = np.array([0.5, -1.0, 2.0])
+PROBLEM = [
+    Argument("Problem", "lower", ABC, bounded("lower"), infinite=True),
+    Argument("Problem", "upper", ABC, bounded("upper"), infinite=True),
+    Argument("equal", "target", ABC, problem_with("equal", "target")),
+    Argument("at_most", "upper", ABC, problem_with("at_most", "upper"), infinite=True),
+    Argument("at_least", "lower", ABC, problem_with("at_least", "lower"), infinite=True),
+    Argument("between", "lower", ABC, problem_with("between", "lower", upper=3.0), infinite=True),
+    Argument("evaluate", "x", ABC, lambda v: tk.Problem(n=3).evaluate(v).gradient),
+    Argument(
+        "check_derivatives",
+        "x",
+        ABC,
+        lambda v: tk.check_derivatives(SQUARE_OF_3, v).jacobian_difference,
+        moderate=True,
+    ),
+    Argument("sqp", "x0", ABC, solved, moderate=True),
 ]
 POSES = np.stack([ROBOT.fk(Q), ROBOT.fk(Q)])
 BASE_PATH = np.stack([Q[6:], Q[6:]])
@@ -290,6 +424,8 @@ PATH = [
     Argument("PathFollower.push", "base", Q[6:], follower_with("base"), moderate=True),
 ]
 ARGUMENTS = [
+    *TIMING,
+    *PROBLEM,
     *INTEROP,
     *CHAIN,
     *MOTION,
@@ -301,30 +437,48 @@ ARGUMENTS = [
     *CLOSED_FORM,
     *IK,
     *PATH,
+    *OBSTACLES,
+    *TERMS,
 ]
 
 # None means "not given" to these.
-OPTIONAL = (
-    {
-        "damping",
-        "mount",
-        "rpy",
-        "null_motion",
-        "previous",
-        "axis",
-        "lower",
-        "upper",
-        "step_limit",
-    }
-    | {
-        "velocity_limits",
-        "acceleration_limits",
-        "quaternion",
-        "point",
-        "seed",
-        "weights",
-        "joint_weights",
-        "max_step",
-    }
-    | {"base_path", "heading", "max_joint_step", "warm_start"}
+OPTIONAL = {
+    "damping",
+    "mount",
+    "rpy",
+    "null_motion",
+    "previous",
+    "axis",
+    "lower",
+    "upper",
+    "step_limit",
+} | {
+    "velocity_limits",
+    "acceleration_limits",
+    "quaternion",
+    "point",
+    "seed",
+    "weights",
+    "joint_weights",
+    "max_step",
+    "center",
+    "pose",
+    "jerk_limits",
+    "base_path",
+    "heading",
+    "max_joint_step",
+    "warm_start",
+}
+
+# Labels where such a name is not optional.
+REQUIRED = (
+    "Path",
+    "rotation",
+    "JointRange",
+    "Disc",
+    "Sphere",
+    "HalfSpace",
+    "terms.Cone",
+    "terms.BaseDistance",
+    "terms.SeedDistance of",
 )

@@ -12,7 +12,7 @@ Examples
 (6, 9)
 """
 
-from thing_kin import lie, robots
+from thing_kin import lie, robots, terms
 from thing_kin._core import (
     DH,
     BaseObstacleTask,
@@ -21,6 +21,7 @@ from thing_kin._core import (
     Capsule,
     Chain,
     Damped,
+    DerivativeCheck,
     Disc,
     DistanceTask,
     Exact,
@@ -41,15 +42,20 @@ from thing_kin._core import (
     PoseTask,
     PositionTask,
     PostureTask,
+    Problem,
+    ProblemValue,
     SelectivelyDamped,
     SetTask,
     SingularValueFilter,
     Sphere,
+    SqpResult,
+    SqpTrace,
     Task,
     TaskPriority,
     TaskPriorityStep,
     WheelLimits,
     __version__,
+    check_derivatives,
     filter_singular_values,
     has_closed_form,
     ik,
@@ -63,10 +69,12 @@ from thing_kin._core import (
     pose_error,
     selectively_damped_step,
     simd_level,
+    sqp,
     transform,
     use_simd_level,
 )
 from thing_kin.path_plan import PathPlan
+from thing_kin.trajectory import Trajectory, move_to, time_path
 
 __all__ = [
     "DH",
@@ -76,6 +84,7 @@ __all__ = [
     "Capsule",
     "Chain",
     "Damped",
+    "DerivativeCheck",
     "Disc",
     "DistanceTask",
     "Exact",
@@ -97,20 +106,27 @@ __all__ = [
     "PoseTask",
     "PositionTask",
     "PostureTask",
+    "Problem",
+    "ProblemValue",
     "SelectivelyDamped",
     "SetTask",
     "SingularValueFilter",
     "Sphere",
+    "SqpResult",
+    "SqpTrace",
     "Task",
     "TaskPriority",
     "TaskPriorityStep",
+    "Trajectory",
     "WheelLimits",
     "__version__",
+    "check_derivatives",
     "filter_singular_values",
     "has_closed_form",
     "ik",
     "ik_all",
     "lie",
+    "move_to",
     "null_space",
     "null_space_projector",
     "on_omni_base",
@@ -121,6 +137,9 @@ __all__ = [
     "robots",
     "selectively_damped_step",
     "simd_level",
+    "sqp",
+    "terms",
+    "time_path",
     "transform",
     "use_simd_level",
 ]

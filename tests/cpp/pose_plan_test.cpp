@@ -89,8 +89,9 @@ TEST(PosePlan, NoNeighborIsBetter) {
         base[j] = plan.q[6 + j] + uniform(rng, -1e-3, 1e-3);
       }
       ClosedFormSolutions solutions;
-      closed->solve(instance.target, base, solutions, {.seed = plan.q.data()});
-      if (solutions.count == 0 || (solutions.begin()->q - plan.q).norm() > 0.1) {
+      closed->solve(instance.target, base, solutions, {.seed = plan.q.data(), .closest = false});
+      if (solutions.count == 0 || !solutions.begin()->exact ||
+          (solutions.begin()->q - plan.q).norm() > 0.1) {
         continue;
       }
       const JointVector& q = solutions.begin()->q;
