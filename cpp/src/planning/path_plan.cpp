@@ -165,18 +165,22 @@ class Planner {
     return attempt(q, lost);
   }
 
-  // The base path, or where the hand takes the base; empty if that is nowhere.
+  // The base path, begun where the base stands; or where the hand takes the base; empty if that is
+  // nowhere.
   BaseLine base_line() const {
     BaseLine line;
+    const auto& base = *problem_.chain().base_joints();
     if (problem_.has_base_path) {
-      for (const PathGoal& goal : goals_) {
-        line.emplace_back(goal.base.head<2>());
+      const Eigen::Vector2d here(first_[base[0]], first_[base[1]]);
+      const Eigen::Vector2d offset = here - goals_[0].base.head<2>();
+      for (std::size_t k = 0; k < goals_.size(); ++k) {
+        const double left = 1.0 - static_cast<double>(k) / static_cast<double>(goals_.size());
+        line.emplace_back(goals_[k].base.head<2>() + left * offset);
       }
       return line;
     }
     std::vector<JointVector> q;
     if (follow_poses(problem_, goals_, first_, {}, q) < 0) {
-      const auto& base = *problem_.chain().base_joints();
       for (const JointVector& at : q) {
         line.emplace_back(at[base[0]], at[base[1]]);
       }
