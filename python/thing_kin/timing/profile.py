@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -23,25 +24,27 @@ ROUNDING_JERK = 60 * 2e-16 / 1e-3  # see _shortest_piece
 MAX_KNOTS = 20_000
 ROUNDS, GOOD_ENOUGH = 8, 1.005  # of lowering the speed where needed
 FITS, GOOD_FIT = 4, 1.02  # of quintics
+OUTSIDE = 1e-12  # rad or m: rounding of a hull that touches a limit
 MARGIN = 1e-9  # of the limits, for the rounding of whoever checks
 
 
-def retimed(curve: Curve, limits: RateLimits) -> Quintic:
-    """Motion over time along the curve, rest to rest, within all limits.
+def retimed(curve: Curve, limits: RateLimits) -> tuple[Quintic, float]:
+    """Motion over time along the curve, rest to rest, within all limits; how far it is off it.
 
     Smoothed, the fastest profile breaks limits here and there; asked to be slower there, it needs
     no slowing down of the whole. The best of a few rounds is tried in earnest, as quintics.
     """
     grid = _grid(curve.shape.x)
     slower, cap = np.ones_like(grid), np.full_like(grid, np.inf)
-    best: Quintic | None = None
+    best: tuple[Quintic, float] | None = None
     for _ in range(FITS):
         profile, window, total = _slowed(curve, limits, grid, slower, cap)
         fit = _quintics(curve, profile, window, limits)
         stretch = _stretch(limits.ratios(fit))
         motion = fit.stretched(float(stretch.max()) * (1.0 + MARGIN))
-        if best is None or motion.x[-1] < best.x[-1]:
-            best = motion
+        if best is None or motion.x[-1] < best[0].x[-1]:
+            pairs = _beside(curve, profile, window, fit)
+            best = motion, max(float(np.abs(true.y - q).max()) for true, (q, _, _) in pairs)
         if fit.x[-1] * stretch.max() < GOOD_FIT * total:
             break
         here = _while_in(fit.x[:-1], fit.x[1:], stretch, profile, window)
@@ -210,19 +213,21 @@ def _passing_times(curve: Curve, profile: Profile, window: float) -> Array:
 def _off(
     curve: Curve, profile: Profile, window: float, limits: RateLimits, motion: Quintic
 ) -> NDArray[np.bool_]:
-    """Pieces that differ from the motion they stand for, at a quarter, half and three quarters."""
-    h = np.diff(motion.x)
-    worst = np.zeros(len(h))
-    for part in (0.25, 0.5, 0.75):
-        t = motion.x[:-1] + part * h
-        true = _motion(curve, profile, window, t)
-        q, v, a = motion(t, 2)
+    """Pieces that differ from the motion they stand for, or may leave the joints' limits."""
+    worst = np.zeros(len(motion.x) - 1)
+    for true, (q, v, a) in _beside(curve, profile, window, motion):
         worst = np.maximum(worst, np.abs(q - true.y).max(axis=1) / POSITION_ERROR)
-        for rate, exact, limit in (
-            (v, true.dy, limits.velocity),
-            (a, true.ddy, limits.acceleration),
-        ):
-            limited = np.isfinite(limit) & (limit > 0)
-            error = np.abs(rate - exact)[:, limited] / (RATE_ERROR * limit[limited])
-            worst = np.maximum(worst, error.max(axis=1, initial=0.0))
-    return np.asarray(worst > 1.0)
+        worst = np.maximum(worst, over(v - true.dy, limits.velocity) / RATE_ERROR)
+        worst = np.maximum(worst, over(a - true.ddy, limits.acceleration) / RATE_ERROR)
+    low, high = motion.reach()
+    outside = np.maximum(curve.lower - low, high - curve.upper).max(axis=1)
+    return np.asarray((worst > 1.0) | (outside > OUTSIDE))
+
+
+def _beside(
+    curve: Curve, profile: Profile, window: float, motion: Quintic
+) -> Iterator[tuple[Quintic, list[Array]]]:
+    """Truth and quintics at a quarter, half and three quarters of each piece."""
+    for part in (0.25, 0.5, 0.75):
+        t = motion.x[:-1] + part * np.diff(motion.x)
+        yield _motion(curve, profile, window, t), motion(t, 2)
