@@ -69,6 +69,14 @@ def test_the_jacobian_of_hulls_is_the_derivative() -> None:
     assert checked > 15
 
 
+def test_as_a_term() -> None:
+    term = tk.terms.Function(MESHES.value, MESHES.jacobian, size=len(MESHES), name="meshes")
+    q = ROBOT.random(rng=3)
+    value, J = term.evaluate(ROBOT, q)
+    assert np.array_equal(value, MESHES.value(q))
+    assert np.array_equal(J, MESHES.jacobian(q))
+
+
 def test_it_is_loaded_on_demand() -> None:
     assert "coal" not in foreign(modules_after("import thing_kin.interop"))
 

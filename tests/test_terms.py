@@ -350,6 +350,43 @@ def test_joint_centering(case: Case) -> None:
     assert_derivatives(terms.JointCentering(), robot, case.q)
 
 
+# In a problem
+
+
+def around(obstacles: list, q: np.ndarray, T: np.ndarray) -> tk.SqpResult:
+    """The pose T nearest to q, two centimeters clear of the obstacles."""
+    problem = tk.Problem(ROBOT)
+    problem.minimize(terms.SeedDistance(q))
+    problem.equal(terms.Pose(T))
+    problem.at_least(terms.Clearance(SHAPE, obstacles), 0.02)
+    return tk.sqp(problem, q)
+
+
+@pytest.mark.parametrize("kind", ["sphere", "capsule", "box", "ceiling", "disc"])
+def test_the_robot_gives_way_to_an_obstacle_in_its_elbow(kind: str) -> None:
+    T = ROBOT.fk(SEED)
+    elbow = SHAPE.centers(ROBOT, SEED)[[frame for frame, _, _ in SHAPE.spheres].index("forearm")]
+    obstacle = {
+        "sphere": tk.Sphere(elbow + (0.0, 0.1, 0.05), 0.1),
+        "capsule": tk.Capsule(elbow - (0.0, 0.0, 2.0), elbow, 0.05),
+        "box": tk.Box(size=(0.2, 0.3, 0.2), center=elbow, rpy=(0.1, 0.2, 0.3)),
+        "ceiling": tk.HalfSpace((0.0, 0.0, -1.0), point=elbow + (0.0, 0.0, 0.04)),
+        "disc": tk.Disc(SEED[6:8] + (0.1, 0.05), 0.2),
+    }[kind]
+    is_disc = isinstance(obstacle, tk.Disc)
+
+    def clearance(q: np.ndarray) -> float:
+        if is_disc:
+            return obstacle.signed_distance((*ROBOT.base_pose(q)[:2], 0.0))
+        return (obstacle.signed_distance(SHAPE.centers(ROBOT, q)) - 0.08).min()
+
+    assert clearance(SEED) < 0.0
+    result = around([obstacle], SEED, T)
+    assert result.success, result.message
+    assert clearance(result.x) == pytest.approx(0.02, abs=1e-6)  # it goes no further than it must
+    assert np.abs(tk.pose_error(ROBOT.fk(result.x), T)).max() < 1e-6
+
+
 # All of them
 
 ALL = [
