@@ -367,11 +367,11 @@ def test_the_robot_gives_way_to_an_obstacle_in_its_elbow(kind: str) -> None:
     T = ROBOT.fk(SEED)
     elbow = SHAPE.centers(ROBOT, SEED)[[frame for frame, _, _ in SHAPE.spheres].index("forearm")]
     obstacle = {
-        "sphere": tk.Sphere(elbow + (0.0, 0.1, 0.05), 0.1),
+        "sphere": tk.Sphere(np.add(elbow, (0.0, 0.1, 0.05)), 0.1),
         "capsule": tk.Capsule(elbow - (0.0, 0.0, 2.0), elbow, 0.05),
         "box": tk.Box(size=(0.2, 0.3, 0.2), center=elbow, rpy=(0.1, 0.2, 0.3)),
-        "ceiling": tk.HalfSpace((0.0, 0.0, -1.0), point=elbow + (0.0, 0.0, 0.04)),
-        "disc": tk.Disc(SEED[6:8] + (0.1, 0.05), 0.2),
+        "ceiling": tk.HalfSpace((0.0, 0.0, -1.0), point=np.add(elbow, (0.0, 0.0, 0.04))),
+        "disc": tk.Disc(np.add(SEED[6:8], (0.1, 0.05)), 0.2),
     }[kind]
     is_disc = isinstance(obstacle, tk.Disc)
 
