@@ -476,3 +476,27 @@ def test_what_they_say_of_themselves(term: terms.Term) -> None:
 def test_what_does_not_fit(call, said: str) -> None:
     with pytest.raises(ValueError, match=f"^{said}.*, expected"):
         call()
+
+
+def test_what_they_are_made_of() -> None:
+    T = tk.transform(xyz=(1, 2, 3), rpy=(0.1, 0.2, 0.3))
+    assert np.array_equal(terms.Pose(T).target, T)
+    assert terms.Pose(T).frame is None
+    assert np.array_equal(terms.Orientation(T[:3, :3], frame="tool").target, T[:3, :3])
+    assert terms.Orientation(T[:3, :3], frame="tool").frame == "tool"
+    position = terms.Position((1, 2, 3), frame="forearm", point=(4, 5, 6))
+    assert position.target.tolist() == [1, 2, 3]
+    assert position.point.tolist() == [4, 5, 6]
+    cone = terms.OrientationCone((0, 3, 4), (0, 0, -2))
+    np.testing.assert_allclose(cone.axis, (0, 0.6, 0.8), atol=1e-16)
+    assert cone.direction.tolist() == [0, 0, -1]
+    assert terms.BaseDistance((1, 2)).center.tolist() == [1, 2]
+    assert terms.BasePosition((1, 2)).target.tolist() == [1, 2]
+    assert terms.Dexterity().jacobian == "whole_body"
+    assert terms.Dexterity(jacobian="arm").jacobian == "arm"
+    assert terms.Dexterity(jacobian=WEIGHTS, frame="tool").jacobian == tuple(WEIGHTS)
+    seed = terms.SeedDistance([1, 2], weights=3.0)
+    assert seed.seed.tolist() == [1, 2]
+    assert seed.weights.tolist() == [3, 3]
+    with pytest.raises(ValueError, match="read-only"):
+        seed.seed[0] = 0.0
