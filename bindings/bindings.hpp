@@ -53,5 +53,15 @@ void bind_ik_result(py::module_& m);
 void bind_numeric_ik(py::module_& m);
 
 void bind_pose_plan(py::module_& m);
+void bind_term_recipe(py::module_& terms);
+void bind_terms_pose(py::module_& terms);
+void bind_terms_orientation_cone(py::module_& terms);
+void bind_terms_base(py::module_& terms);
+void bind_terms_clearance(py::module_& terms);
+void bind_terms_dexterity(py::module_& terms);
+void bind_terms_joints(py::module_& terms);
+
+void bind_path_plan(py::module_& m);
+void bind_path_follower(py::module_& m);
 
 }  // namespace thing_kin::python

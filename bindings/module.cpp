@@ -53,4 +53,14 @@ PYBIND11_MODULE(_core, m) {
   bind_numeric_ik(m);
 
   bind_pose_plan(m);
+  py::module_ terms = m.def_submodule("terms", "What problems are made of.");
+  bind_term_recipe(terms);
+  bind_terms_pose(terms);
+  bind_terms_orientation_cone(terms);
+  bind_terms_base(terms);
+  bind_terms_clearance(terms);
+  bind_terms_dexterity(terms);
+  bind_terms_joints(terms);
+  bind_path_plan(m);
+  bind_path_follower(m);
 }

@@ -240,6 +240,77 @@ CLOSED_FORM = [
         moderate=True,
     ),
 ]
+SHAPE = tk.LinkSpheres(ROBOT, [("tool", (0.0, 0.0, 0.1), 0.1), ("forearm", (0.2, 0.0, 0.0), 0.1)])
+BALL = tk.Sphere((0.1, 0.2, 0.3), 0.2)
+
+
+def obstacle(make: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    return lambda value: make(value).signed_distance(POINT)
+
+
+OBSTACLES = [
+    Argument("Disc", "center", XI[:2], obstacle(lambda v: tk.Disc(v, 0.1))),
+    Argument("Sphere", "center", XI[:3], obstacle(lambda v: tk.Sphere(v, 0.1))),
+    Argument("Capsule", "start", XI[:3], obstacle(lambda v: tk.Capsule(v, (0, 0, 0), 0.1))),
+    Argument("Capsule", "end", XI[:3], obstacle(lambda v: tk.Capsule((0, 0, 0), v, 0.1))),
+    Argument("Box", "size", XI[:3], obstacle(lambda v: tk.Box(size=v))),
+    Argument("Box", "center", XI[:3], obstacle(lambda v: tk.Box(size=XI[:3], center=v))),
+    Argument("Box", "rpy", XI[3:], obstacle(lambda v: tk.Box(size=XI[:3], rpy=v))),
+    Argument("Box", "pose", T, obstacle(lambda v: tk.Box(size=XI[:3], pose=v))),
+    Argument("HalfSpace", "normal", XI[:3], obstacle(lambda v: tk.HalfSpace(v, offset=0.5))),
+    Argument("HalfSpace", "point", XI[:3], obstacle(lambda v: tk.HalfSpace((0, 3, 4), point=v))),
+    Argument("signed_distance", "points", XI[:3], BALL.signed_distance),
+    Argument("centers", "q", Q, lambda v: SHAPE.centers(ROBOT, v), moderate=True),
+]
+
+
+def term(make: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    def call(value: Any) -> Any:
+        made = make(value)
+        return np.append(made.evaluate(ROBOT, Q)[0], made.hessian(ROBOT, Q))
+
+    return call
+
+
+def pose_term(q: Any) -> Any:
+    value, J = tk.terms.Pose(T).evaluate(ROBOT, q)
+    return np.append(J, value[..., None], axis=-1)
+
+
+TERMS = [
+    Argument("terms.Pose", "target", T, term(tk.terms.Pose)),
+    Argument("terms.Position", "target", XI[:3], term(tk.terms.Position)),
+    Argument(
+        "terms.Position", "point", XI[:3], term(lambda v: tk.terms.Position((0, 0, 0), point=v))
+    ),
+    Argument("terms.Orientation", "target", T[:3, :3], term(tk.terms.Orientation)),
+    Argument("terms.Cone", "axis", XI[:3], term(lambda v: tk.terms.OrientationCone(v, (0, 0, 1)))),
+    Argument(
+        "terms.Cone", "direction", XI[:3], term(lambda v: tk.terms.OrientationCone((0, 0, 1), v))
+    ),
+    Argument("terms.BaseDistance", "center", XI[:2], term(tk.terms.BaseDistance)),
+    Argument("terms.BasePosition", "target", XI[:2], term(tk.terms.BasePosition)),
+    Argument("terms.SeedDistance of", "seed", Q, term(tk.terms.SeedDistance)),
+    Argument(
+        "terms.SeedDistance", "weights", np.ones(9), term(lambda v: tk.terms.SeedDistance(Q, v))
+    ),
+    Argument(
+        "terms.Dexterity",
+        "jacobian",
+        np.ones(9),
+        term(lambda v: tk.terms.Dexterity(jacobian=v)),
+        moderate=True,
+    ),
+    Argument("terms evaluate", "q", Q, pose_term, moderate=True),
+    Argument("terms hessian", "q", Q, lambda v: tk.terms.Pose(T).hessian(ROBOT, v), moderate=True),
+    Argument(
+        "terms hessian",
+        "weights",
+        XI,
+        lambda v: tk.terms.Pose(T).hessian(ROBOT, Q, v),
+        moderate=True,
+    ),
+]
 XYZW = np.array([0.5, -0.5, 0.5, 0.5])
 PIN_THING = interop.to_pinocchio(ROBOT)
 INTEROP = [
@@ -286,6 +357,8 @@ ARGUMENTS = [
     *LIMITS,
     *CLOSED_FORM,
     *IK,
+    *OBSTACLES,
+    *TERMS,
 ]
 
 # None means "not given" to these.
@@ -309,4 +382,18 @@ OPTIONAL = {
     "joint_weights",
     "max_step",
     "jerk_limits",
+    "center",
+    "pose",
 }
+
+# Labels where such a name is not optional.
+REQUIRED = (
+    "rotation",
+    "JointRange",
+    "Disc",
+    "Sphere",
+    "HalfSpace",
+    "terms.Cone",
+    "terms.BaseDistance",
+    "terms.SeedDistance of",
+)

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import pytest
 
 import thing_kin as tk
-from thing_kin import interop, kdl, lie, robots
+from thing_kin import interop, kdl, lie, robots, terms
 
-MODULES = (tk, lie, robots, kdl, interop)
+MODULES = (tk, lie, robots, terms, kdl, interop)
 
 
 def public_things() -> Iterator[tuple[str, object]]:
@@ -33,7 +33,8 @@ def class_and_members(path: str, thing: type) -> Iterator[tuple[str, object]]:
 
 THINGS = dict(public_things())
 PROPERTIES = {path for path, thing in THINGS.items() if isinstance(thing, property)}
-WITH_EXAMPLES = sorted(set(THINGS) - PROPERTIES - {lie.__name__, robots.__name__, kdl.__name__})
+MODULES_ALONE = {lie.__name__, robots.__name__, terms.__name__, kdl.__name__}
+WITH_EXAMPLES = sorted(set(THINGS) - PROPERTIES - MODULES_ALONE)
 
 
 def text_of(path: str) -> str:

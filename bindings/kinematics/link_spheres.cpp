@@ -137,7 +137,7 @@ Examples
 --------
 >>> import thing_kin as tk
 >>> robot = tk.robots.ur10()
->>> shape = tk.LinkSpheres(robot, [("tool", (0, 0, 0.05), 0.1), ("frame2", (0.3, 0, 0), 0.1)])
+>>> shape = tk.LinkSpheres(robot, [("tool", (0, 0, 0.05), 0.1), ("upper_arm", (0.3, 0, 0), 0.1)])
 >>> shape.pairs
 ((0, 1),)
 )")
@@ -178,7 +178,7 @@ Examples
 --------
 >>> import thing_kin as tk
 >>> tk.LinkSpheres.along_links(tk.robots.ur10(), radius=0.08, spacing=0.15)
-LinkSpheres(14 spheres, 48 pairs)
+LinkSpheres(15 spheres, 33 pairs)
 )")
       .def_property_readonly("spheres", &spheres_of, "(frame, (x, y, z), radius) each, m.")
       .def_property_readonly("pairs", &pairs_of, "Pairs of spheres that must not meet.")

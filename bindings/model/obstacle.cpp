@@ -137,7 +137,7 @@ Disc(center=(0.6, 0.6), radius=0.4)
            py::arg("center"), py::arg("radius"))
       .def_property_readonly(
           "center", [](const Disc& disc) { return frozen(disc.center); }, "(x, y), m.")
-      .def_readonly("radius", &Disc::radius, "m.")
+      .def_readonly("radius", &Disc::radius, "Its radius, m.")
       .def("__repr__", [](const Disc& disc) {
         return py::str("Disc(center={}, radius={})").format(numbers(disc.center), disc.radius);
       });
@@ -168,7 +168,7 @@ Sphere(center=(1.0, 0.0, 0.8), radius=0.2)
            py::arg("center"), py::arg("radius"))
       .def_property_readonly(
           "center", [](const Sphere& sphere) { return frozen(sphere.center); }, "(x, y, z), m.")
-      .def_readonly("radius", &Sphere::radius, "m.")
+      .def_readonly("radius", &Sphere::radius, "Its radius, m.")
       .def("__repr__", [](const Sphere& sphere) {
         return py::str("Sphere(center={}, radius={})")
             .format(numbers(sphere.center), sphere.radius);
@@ -205,7 +205,7 @@ Examples
           "start", [](const Capsule& capsule) { return frozen(capsule.start); }, "(x, y, z), m.")
       .def_property_readonly(
           "end", [](const Capsule& capsule) { return frozen(capsule.end); }, "(x, y, z), m.")
-      .def_readonly("radius", &Capsule::radius, "m.")
+      .def_readonly("radius", &Capsule::radius, "Its radius, m.")
       .def("__repr__", [](const Capsule& capsule) {
         return py::str("Capsule(start={}, end={}, radius={})")
             .format(numbers(capsule.start), numbers(capsule.end), capsule.radius);
@@ -293,9 +293,11 @@ HalfSpace make_half_space(const ArrayLike& normal, const std::optional<double>& 
   if (!(unit.norm() > 0.5)) {
     throw InvalidArgument("normal", "no direction", "three finite numbers, not all zero");
   }
-  if (offset.has_value() != point.is_none()) {
-    throw InvalidArgument("offset", offset ? "point as well" : "neither offset nor point",
-                          "one or the other");
+  if (offset && !point.is_none()) {
+    throw InvalidArgument("offset", "point as well", "one or the other");
+  }
+  if (!offset && point.is_none()) {
+    throw InvalidArgument("point", "None, and no offset", "one or the other");
   }
   return checked(HalfSpace{unit, offset ? *offset : unit.dot(read_point<3>(point, "point"))});
 }

@@ -12,7 +12,7 @@ Examples
 (6, 9)
 """
 
-from thing_kin import lie, robots
+from thing_kin import lie, robots, terms
 from thing_kin._core import (
     DH,
     BaseObstacleTask,
@@ -25,6 +25,7 @@ from thing_kin._core import (
     DistanceTask,
     Exact,
     FieldOfViewTask,
+    FollowerStep,
     HalfSpace,
     IkBatchResult,
     IkResult,
@@ -34,6 +35,7 @@ from thing_kin._core import (
     LinkSpheres,
     NumericIk,
     OrientationTask,
+    PathFollower,
     PosePlan,
     PosePlanner,
     PoseTask,
@@ -56,6 +58,7 @@ from thing_kin._core import (
     null_space_projector,
     on_omni_base,
     pinv,
+    plan_path,
     plan_pose,
     pose_error,
     selectively_damped_step,
@@ -63,6 +66,7 @@ from thing_kin._core import (
     transform,
     use_simd_level,
 )
+from thing_kin.path_plan import PathPlan
 from thing_kin.trajectory import Trajectory, move_to, time_path
 
 __all__ = [
@@ -77,6 +81,7 @@ __all__ = [
     "DistanceTask",
     "Exact",
     "FieldOfViewTask",
+    "FollowerStep",
     "HalfSpace",
     "IkBatchResult",
     "IkResult",
@@ -86,6 +91,8 @@ __all__ = [
     "LinkSpheres",
     "NumericIk",
     "OrientationTask",
+    "PathFollower",
+    "PathPlan",
     "PosePlan",
     "PosePlanner",
     "PoseTask",
@@ -111,11 +118,13 @@ __all__ = [
     "null_space_projector",
     "on_omni_base",
     "pinv",
+    "plan_path",
     "plan_pose",
     "pose_error",
     "robots",
     "selectively_damped_step",
     "simd_level",
+    "terms",
     "time_path",
     "transform",
     "use_simd_level",

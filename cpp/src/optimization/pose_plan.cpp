@@ -5,6 +5,7 @@
 
 #include "pose_search.hpp"
 #include "thing_kin/core/error.hpp"
+#include "thing_kin/kinematics/pose_error.hpp"
 
 namespace thing_kin {
 
@@ -109,19 +110,30 @@ PosePlanner::PosePlanner(const Chain& chain, int frame, PosePlanOptions options,
       clearances_(chain, spheres, std::move(obstacles)),
       closed_form_(ClosedFormIk::find(chain, frame)),
       sequence_(chain.dof(), options_.rng) {
-  for (Eigen::Index j = 0; j < chain.dof(); ++j) {
-    if (box_.lower(j) > box_.upper(j)) {
-      const auto i = static_cast<std::size_t>(j);
-      throw InvalidArgument("base_goal",
-                            std::string("a disc or heading outside the limits of joint ")
-                                .append(quoted(chain.joint_names()[i])),
-                            "one that meets them");
-    }
+  for (int j = 0; j < chain.dof(); ++j) {
+    crossed_ = crossed_ < 0 && box_.lower(j) > box_.upper(j) ? j : crossed_;
   }
 }
 
 PosePlan PosePlanner::solve(const SE3& target, const double* seed) const {
-  return PoseSearch(*this, target, seed).run();
+  return crossed_ < 0 ? PoseSearch(*this, target, seed).run() : refuse(target, seed);
+}
+
+// Where goal or heading leave a joint no place within its limits.
+PosePlan PosePlanner::refuse(const SE3& target, const double* seed) const {
+  PosePlan plan;
+  const JointBox limits(chain_);
+  plan.q = Eigen::Map<const Eigen::VectorXd>(seed, chain_.dof());
+  for (Eigen::Index j = 0; j < plan.q.size(); ++j) {
+    plan.q[j] = limits.inside(j, plan.q[j]);
+  }
+  const Vector6 error = pose_error(forward_kinematics(chain_, plan.q.data(), frame_), target);
+  plan.position_error = error.head<3>().norm();
+  plan.rotation_error = error.tail<3>().norm();
+  plan.objective = objective(plan.q);
+  plan.worst = kLimits;
+  plan.constraint_violation = box_.lower(crossed_) - box_.upper(crossed_);
+  return plan;
 }
 
 int PosePlanner::constraints() const { return kFirstClearance + clearances_.size(); }
@@ -172,7 +184,11 @@ std::string PosePlanner::describe(int constraint) const {
     case kRotation:
       return "the hand's orientation";
     case kLimits:
-      return "joint limits";
+      return crossed_ < 0
+                 ? "joint limits"
+                 : std::string("the limits of joint ")
+                       .append(quoted(chain_.joint_names()[static_cast<std::size_t>(crossed_)]))
+                       .append(", which goal or heading is outside of,");
     case kDisc:
       return "the base's distance from its goal";
     default:
