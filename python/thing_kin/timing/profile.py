@@ -22,8 +22,9 @@ WINDOWS = np.geomspace(4e-3, 0.3, 10)  # of the smoothing, in durations: the bes
 POSITION_ERROR, RATE_ERROR = 1e-8, 1e-2  # of quintics in time: rad or m; share of the limit
 ROUNDING_JERK = 60 * 2e-16 / 1e-3  # see _shortest_piece
 MAX_KNOTS = 20_000
-ROUNDS, GOOD_ENOUGH = 8, 1.005  # of lowering the speed where needed
-FITS, GOOD_FIT = 4, 1.02  # of quintics
+NARROWER, SOFTER = (0.6, 1.0, 1.7), (0.4, 0.6, 1.0, 1.7, 3.0)  # times the best one so far
+ROUNDS, GOOD_ENOUGH = 7, 1.005  # of lowering the speed where needed
+FITS, GOOD_FIT = 3, 1.02  # of quintics
 OUTSIDE = 1e-12  # rad or m: rounding of a hull that touches a limit
 MARGIN = 1e-9  # of the limits, for the rounding of whoever checks
 
@@ -59,10 +60,9 @@ def _slowed(
 ) -> tuple[Profile, float, float]:
     """Profile and window of the shortest duration, and that; slower and cap go on being lowered."""
     best: tuple[Profile, float, float] | None = None
-    soft = bool(np.isfinite(limits.jerk).any())
     for _ in range(ROUNDS):
         profile = Profile.of(grid, fastest(curve.shape, limits, grid, slower, cap))
-        window, total = _best_window(curve, profile, limits, best[1] if best and not soft else None)
+        window, total = _best_window(curve, profile, limits, best and best[1])
         if best is None or total < best[2]:
             best = profile, window, total
         t = _samples(profile, window)
@@ -108,10 +108,12 @@ def _best_window(
 
     Narrow: hardly slower, but a jerk. Wide: soft, but out of step with the curve's bends.
     """
-    windows = list(WINDOWS * profile.duration) if near is None else [0.6 * near, near, near / 0.6]
     soft = np.isfinite(limits.jerk) & np.isfinite(limits.acceleration) & (limits.jerk > 0)
     if near is None:
-        windows += list(np.unique(limits.acceleration[soft] / limits.jerk[soft]))
+        ramps = np.unique(limits.acceleration[soft] / limits.jerk[soft])
+        windows = [*(WINDOWS * profile.duration), *ramps]
+    else:
+        windows = [x * near for x in (SOFTER if soft.any() else NARROWER)]
     totals = []
     for window in windows:
         rates = _ratios(curve, profile, window, limits, _samples(profile, window))
