@@ -60,6 +60,10 @@ void bind_terms_base(py::module_& terms);
 void bind_terms_clearance(py::module_& terms);
 void bind_terms_dexterity(py::module_& terms);
 void bind_terms_joints(py::module_& terms);
+void bind_function_term(py::module_& terms);
+void bind_problem(py::module_& m);
+void bind_derivative_check(py::module_& m);
+void bind_sqp(py::module_& m);
 
 void bind_path_plan(py::module_& m);
 void bind_path_follower(py::module_& m);

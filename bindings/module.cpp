@@ -61,6 +61,10 @@ PYBIND11_MODULE(_core, m) {
   bind_terms_clearance(terms);
   bind_terms_dexterity(terms);
   bind_terms_joints(terms);
+  bind_function_term(terms);
+  bind_problem(m);
+  bind_derivative_check(m);
+  bind_sqp(m);
   bind_path_plan(m);
   bind_path_follower(m);
 }

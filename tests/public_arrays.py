@@ -326,6 +326,24 @@ INTEROP = [
     Argument("PinocchioModel", "q", Q, PIN_THING.q),
     Argument("PinocchioModel", "v", Q, PIN_THING.from_v),
 ]
+
+
+def pose_with(name: str) -> Callable[[Any], Any]:
+    known: dict[str, Any] = {"target": T, "seed": Q, "base_goal": XI[:2] / 4, "base_radius": 0.5}
+
+    def call(value: Any) -> Any:
+        return tk.plan_pose(ROBOT, **{**known, name: value}, max_restarts=2).q
+
+    return call
+
+
+POSE_PLAN = [
+    Argument("plan_pose", "target", T, pose_with("target"), moderate=True),
+    Argument("plan_pose", "seed", Q, pose_with("seed"), moderate=True),
+    Argument("plan_pose", "base_goal", XI[:2] / 4, pose_with("base_goal")),
+    Argument("plan_pose", "heading", np.array([-1.0, 1.0]), pose_with("heading")),
+    Argument("plan_pose", "jacobian", np.full(9, 0.5), pose_with("jacobian")),
+]
 TRAJECTORY = tk.Trajectory(
     ["a", "b"], [0.0, 0.5, 2.0], np.arange(6.0).reshape(3, 2), np.zeros((3, 2)), np.zeros((3, 2))
 )
@@ -345,8 +363,54 @@ TIMING = [
         for name in ("velocity_limits", "acceleration_limits", "jerk_limits")
     ),
 ]
+SQUARE_OF_3 = tk.terms.Function(lambda x: x**2, lambda x: 2 * np.diag(x), size=3, n=3)
+SQUARE = tk.terms.Function(lambda x: x**2, lambda x: 2 * np.diag(x), size=3, name="square")
+
+
+def problem_with(method: str, name: str, **others: Any) -> Callable[[Any], Any]:
+    """What a problem has of a value that a constraint was given."""
+
+    def call(value: Any) -> Any:
+        problem = tk.Problem(n=3)
+        getattr(problem, method)(SQUARE, **others, **{name: value})
+        side = "upper" if name == "upper" else "lower"
+        return getattr(problem, f"constraint_{side}")
+
+    return call
+
+
+def bounded(name: str) -> Callable[[Any], Any]:
+    return lambda value: getattr(tk.Problem(n=3, **{name: value}), name)
+
+
+def solved(value: Any) -> Any:
+    problem = tk.Problem(n=3, lower=-1.0)
+    problem.minimize(SQUARE)
+    return tk.sqp(problem, value, minimizer="qp", max_iterations=3).x
+
+
+ABC = np.array([0.5, -1.0, 2.0])
+PROBLEM = [
+    Argument("Problem", "lower", ABC, bounded("lower"), infinite=True),
+    Argument("Problem", "upper", ABC, bounded("upper"), infinite=True),
+    Argument("equal", "target", ABC, problem_with("equal", "target")),
+    Argument("at_most", "upper", ABC, problem_with("at_most", "upper"), infinite=True),
+    Argument("at_least", "lower", ABC, problem_with("at_least", "lower"), infinite=True),
+    Argument("between", "lower", ABC, problem_with("between", "lower", upper=3.0), infinite=True),
+    Argument("evaluate", "x", ABC, lambda v: tk.Problem(n=3).evaluate(v).gradient),
+    Argument(
+        "check_derivatives",
+        "x",
+        ABC,
+        lambda v: tk.check_derivatives(SQUARE_OF_3, v).jacobian_difference,
+        moderate=True,
+    ),
+    Argument("sqp", "x0", ABC, solved, moderate=True),
+]
 ARGUMENTS = [
+    *POSE_PLAN,
     *TIMING,
+    *PROBLEM,
     *INTEROP,
     *CHAIN,
     *MOTION,
@@ -381,9 +445,10 @@ OPTIONAL = {
     "weights",
     "joint_weights",
     "max_step",
-    "jerk_limits",
     "center",
     "pose",
+    "jerk_limits",
+    "heading",
 }
 
 # Labels where such a name is not optional.

@@ -37,12 +37,21 @@ def test_it_loads_numpy_only() -> None:
         "thing_kin._kdl",
         "thing_kin.kdl",
         "thing_kin._urdf",
+        "thing_kin._ceres",
     ):
         assert heavy not in loaded
 
 
 def test_kdl_is_loaded_on_demand() -> None:
     assert "thing_kin._kdl" in modules_after("import thing_kin.kdl")
+
+
+def test_ceres_is_loaded_on_demand() -> None:
+    use = "import thing_kin as tk; problem = tk.Problem(n=1)"
+    assert "thing_kin._ceres" not in modules_after(f"{use}; tk.sqp(problem, [0.0], minimizer='qp')")
+    loaded = modules_after(f"{use}; tk.sqp(problem, [0.0])")
+    assert "thing_kin._ceres" in loaded
+    assert foreign(loaded) == foreign(modules_after("import thing_kin"))
 
 
 def test_the_urdf_reader_is_loaded_on_demand() -> None:

@@ -199,3 +199,22 @@ def test_missing_matplotlib_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
     with pytest.raises(ImportError, match=r"pip install thing_kin\[viz\]"):
         viz.plot_path(np.zeros((2, 3)))
+
+
+def test_a_trace_shows_what_happened():
+    value, slope = (lambda x: x @ x - 1, lambda x: 2 * x)
+    circle = tk.terms.Function(value, slope, lambda x: 2 * np.eye(2))
+    problem = tk.Problem(n=2)
+    problem.minimize(tk.terms.Function(lambda x: 100 * x[0], lambda x: [100.0, 0.0]))
+    problem.equal(circle)
+    trace = tk.sqp(problem, (2.0, 1.0)).trace
+    assert 0 < (~trace.accepted).sum() < len(trace)
+    figure = viz.plot_trace(trace)
+    above, middle, below = figure.axes
+    iteration = np.arange(1, len(trace) + 1)
+    for axes, drawn in ((above, trace.objective), (middle, np.maximum(trace.violation, 1e-16))):
+        np.testing.assert_array_equal(axes.lines[0].get_xydata(), np.c_[iteration, drawn])
+    np.testing.assert_array_equal(above.lines[1].get_xdata(), iteration[~trace.accepted])
+    for line, drawn in zip(below.lines, (trace.radius, trace.penalty), strict=True):
+        np.testing.assert_array_equal(line.get_ydata(), drawn)
+    assert (middle.get_yscale(), below.get_yscale()) == ("log", "log")

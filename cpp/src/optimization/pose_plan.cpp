@@ -79,10 +79,16 @@ void PosePlanOptions::check(const Chain& chain) const {
                             "two finite angles in rising order, rad");
     }
   }
-  if (column_weights.size() > 0 &&
-      (!column_weights.allFinite() || column_weights.minCoeff() < 0.0)) {
-    throw InvalidArgument("jacobian", "a weight that is negative or not finite",
-                          "weights at least 0, one a joint");
+  constexpr double kLargestWeight = 1e6;  // a product of twelve does not overflow
+  for (const double weight : column_weights) {
+    if (!(weight >= 0.0 && weight <= kLargestWeight)) {
+      throw InvalidArgument("jacobian", text(weight), "weights from 0 to 1e6");
+    }
+  }
+  const auto counting = (column_weights.array() > 0.0).count();
+  if (column_weights.size() > 0 && counting < 6) {
+    throw InvalidArgument("jacobian", std::to_string(counting).append(" joints that count"),
+                          "at least six, without which sqrt(kappa/M) is infinite");
   }
   if (!(tolerance > 0.0)) {
     throw InvalidArgument("tolerance", text(tolerance), "a number above 0");

@@ -1,4 +1,4 @@
-"""Figures: paths, stick figures, joints, singular values, joint steps, an animation.
+"""Figures: paths, stick figures, joints, singular values, joint steps, solver traces, an animation.
 
 Needs the extra `viz` (`pip install thing_kin[viz]`); matplotlib is imported when the first figure
 is made. Figures are made without a display: save them with `figure.savefig("name.png")`.
@@ -8,6 +8,7 @@ from thing_kin.viz.animation import animate
 from thing_kin.viz.geometry import plot_path, plot_stick_figures, stick_figure
 from thing_kin.viz.plans import plot_dexterity, plot_plan, plot_trajectory
 from thing_kin.viz.series import plot_joint_steps, plot_joints, plot_singular_values
+from thing_kin.viz.trace import plot_trace
 
 __all__ = [
     "animate",
@@ -18,6 +19,7 @@ __all__ = [
     "plot_plan",
     "plot_singular_values",
     "plot_stick_figures",
+    "plot_trace",
     "plot_trajectory",
     "stick_figure",
 ]

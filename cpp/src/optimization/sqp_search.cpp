@@ -1,0 +1,208 @@
+#include "sqp_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "thing_kin/core/tolerance.hpp"
+#include "thing_kin/optimization/optimality.hpp"
+
+namespace thing_kin {
+
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr int kPolishes = 10;         // in a row
+constexpr double kPolishRise = 1e-8;  // of the objective, relative
+
+}  // namespace
+
+SqpSearch::SqpSearch(const Problem& problem, const ConvexMinimizer& minimizer,
+                     const SqpOptions& options, const VectorView& x0)
+    : problem_(problem),
+      minimizer_(minimizer),
+      options_(options),
+      x_(x0),
+      multipliers_(VectorXd::Zero(problem.rows())),
+      merit_{1.0, options.mu0},
+      delta_(options.delta0) {}
+
+bool SqpSearch::penalty_loop() {
+  if (!problem_.linearize(x_, at_)) {
+    return true;
+  }
+  double violation = std::numeric_limits<double>::infinity();
+  for (;;) {
+    const End end = convexify_loop();
+    if (end != End::kStationary || is_feasible() || merit_.penalty >= options_.mu_max) {
+      return true;
+    }
+    const double left = problem_.row_violations(at_.value).maxCoeff();
+    if (left > 0.1 * violation && !restore()) {
+      return false;
+    }
+    violation = left;
+    merit_.penalty = std::min(options_.mu_max, options_.k * merit_.penalty);
+    delta_ = options_.delta0;
+  }
+}
+
+SqpSearch::End SqpSearch::convexify_loop() {
+  while (!out_of_budget()) {
+    if (is_optimal()) {
+      return End::kOptimal;
+    }
+    if (!trust_loop() && !out_of_budget()) {
+      return End::kStationary;
+    }
+  }
+  return End::kBudget;
+}
+
+// True: x has moved.
+bool SqpSearch::trust_loop() {
+  Model model = convexify(Convexity::kAcross);
+  while (delta_ >= options_.delta_min && !out_of_budget()) {
+    ++iterations_;
+    Trial trial = attempt(model, model.convex);
+    const double step = trial.step.p.cwiseAbs().maxCoeff();
+    const bool is_small =
+        !(trial.predicted > options_.improvement_tolerance * std::max(1.0, std::abs(merit()))) ||
+        step <= options_.step_tolerance;
+    if (!is_small && !is_acceptable(trial) && options_.second_order_correction) {
+      trial = corrected(model, trial);
+    }
+    const bool improves = is_small
+                              ? trial.actual >= -rounding() && step > 0.0 && polished_ < kPolishes
+                              : is_acceptable(trial);
+    if (improves && move(trial)) {
+      polished_ = is_small ? polished_ + 1 : 0;
+      delta_ = std::min(options_.delta_max, options_.tau_plus * delta_);
+      return true;
+    }
+    note(false);
+    if (is_small && model.is_clipped) {
+      return false;
+    }
+    delta_ = is_small ? delta_ : options_.tau_minus * std::min(delta_, step);
+    model = convexify(Convexity::kClipped);
+  }
+  return false;
+}
+
+// The violation alone, by the same loops.
+bool SqpSearch::restore() {
+  const Merit merit = merit_;
+  merit_ = {0.0, 1.0};
+  multipliers_.setZero();
+  delta_ = options_.delta0;
+  convexify_loop();
+  const bool is_restored = is_feasible() || out_of_budget();
+  merit_ = merit;
+  multipliers_.setZero();
+  return is_restored;
+}
+
+SqpSearch::Trial SqpSearch::attempt(const Model& model, const ConvexModel& solved) const {
+  Trial trial{minimizer_.minimize(solved), {}, 0.0, 0.0};
+  const VectorXd& p = trial.step.p;
+  trial.x = (x_ + p).cwiseMax(problem_.lower()).cwiseMin(problem_.upper());
+  const auto excess = [&](const VectorXd& value) {
+    return l1_violation(value, problem_.row_lower(), problem_.row_upper());
+  };
+  trial.predicted = -p.dot(model.gradient + 0.5 * model.hessian * p) +
+                    merit_.penalty * (excess(at_.value) - excess(at_.value + at_.jacobian * p));
+  double objective = 0.0;
+  VectorXd value;
+  trial.actual = problem_.evaluate(trial.x, objective, value)
+                     ? merit() - merit_.scale * objective - merit_.penalty * excess(value)
+                     : -std::numeric_limits<double>::infinity();
+  return trial;
+}
+
+// Fletcher's second-order correction: the constraints' curvature as it shows at the step's end.
+SqpSearch::Trial SqpSearch::corrected(const Model& model, const Trial& first) const {
+  double objective = 0.0;
+  ConvexModel again = model.convex;
+  if (problem_.rows() == 0 || !problem_.evaluate(first.x, objective, again.value)) {
+    return first;
+  }
+  again.value -= at_.jacobian * first.step.p;
+  Trial trial = attempt(model, again);
+  trial.predicted = first.predicted;
+  return is_acceptable(trial) ? trial : first;
+}
+
+bool SqpSearch::is_acceptable(const Trial& trial) const {
+  return trial.predicted > 0.0 &&
+         (trial.actual >= options_.c * trial.predicted ||
+          (trial.predicted <= 10.0 * rounding() && trial.actual >= -rounding()));
+}
+
+// Near the end the merit cannot tell: with a large penalty, a violation within tolerance outweighs
+// what the objective gains. There the residual decides, from one feasible point to the next.
+bool SqpSearch::is_polish(const Trial& trial) const {
+  Linearization there;
+  if (merit_.scale == 0.0 || polished_ >= kPolishes || !is_feasible() ||
+      !problem_.linearize(trial.x, there) ||
+      (problem_.row_violations(there.value).array() > options_.constraint_tolerance).any()) {
+    return false;
+  }
+  return there.objective - at_.objective <= kPolishRise * std::max(1.0, std::abs(at_.objective)) &&
+         optimality(problem_, trial.x, there).residual <
+             0.5 * optimality(problem_, x_, at_).residual;
+}
+
+// False: a derivative does not exist where the value does.
+bool SqpSearch::move(const Trial& trial) {
+  Linearization there;
+  if (!problem_.linearize(trial.x, there)) {
+    return false;
+  }
+  note(true);
+  x_ = trial.x;
+  at_ = std::move(there);
+  multipliers_ = trial.step.multipliers;
+  return true;
+}
+
+void SqpSearch::note(bool accepted) {
+  trace_.merit.push_back(merit());
+  trace_.objective.push_back(at_.objective);
+  trace_.violation.push_back(problem_.rows() == 0 ? 0.0
+                                                  : problem_.row_violations(at_.value).maxCoeff());
+  trace_.radius.push_back(delta_);
+  trace_.penalty.push_back(merit_.penalty);
+  trace_.accepted.push_back(accepted);
+}
+
+bool SqpSearch::is_feasible() const {
+  return (problem_.row_violations(at_.value).array() <= options_.constraint_tolerance).all();
+}
+
+bool SqpSearch::is_optimal() const {
+  return is_feasible() && (merit_.scale == 0.0 ||
+                           optimality(problem_, x_, at_).residual <= options_.optimality_tolerance);
+}
+
+double SqpSearch::merit() const {
+  return merit_.scale * at_.objective +
+         merit_.penalty * l1_violation(at_.value, problem_.row_lower(), problem_.row_upper());
+}
+
+double SqpSearch::rounding() const {
+  return 10.0 * kEpsilon *
+         std::max(
+             {1.0, std::abs(merit()),
+              merit_.penalty * (at_.value.size() == 0 ? 0.0 : at_.value.cwiseAbs().maxCoeff())});
+}
+
+double SqpSearch::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+bool SqpSearch::out_of_budget() const {
+  return iterations_ >= options_.max_iterations || seconds() > options_.deadline;
+}
+
+}  // namespace thing_kin
