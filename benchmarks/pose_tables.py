@@ -7,6 +7,7 @@ from inverse_tables import share
 from markdown import NONE, table, time
 
 FILE = "pose_race.json"
+PATHS = "path_race.json"
 LIMITS = {"2pi": "±2 pi", "pi": "±pi"}
 
 
@@ -57,3 +58,18 @@ def pose_setup(figures: Figures) -> str:
         versions = ", ".join(f"{name} {version}" for name, version in packages.items())
         rows.append([about["title"], versions or NONE, about["note"]])
     return table(["", "versions", "set-up"], rows)
+
+
+def pose_paths(figures: Figures) -> str:
+    """The path of user script 05: objective, violation, iterations, CPU time."""
+    rows = [
+        [
+            f"{result['title']}, {result['count']} waypoints",
+            f"{result['objective']:.6f}",
+            f"{result['violation']:.1e}",
+            str(result["iterations"]),
+            time(result["cpu_median"]),
+        ]
+        for result in figures.content(PATHS)["results"]
+    ]
+    return table(["", "objective", "largest violation", "iterations", "CPU time"], rows)

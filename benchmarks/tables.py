@@ -31,6 +31,7 @@ TABLES = {  # the file without which there is none
     "pose": pose_tables.FILE,
     "pose_claims": pose_tables.FILE,
     "pose_setup": pose_tables.FILE,
+    "pose_paths": pose_tables.PATHS,
 }
 
 

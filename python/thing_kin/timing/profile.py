@@ -21,9 +21,11 @@ PER_PIECE = 3  # at least
 WINDOWS = np.geomspace(4e-3, 0.3, 10)  # of the smoothing, in durations: the best is taken
 POSITION_ERROR, RATE_ERROR = 1e-8, 1e-2  # of quintics in time: rad or m; share of the limit
 ROUNDING_JERK = 60 * 2e-16 / 1e-3  # see _shortest_piece
+FINER, FAR_OFF = 30.0, 30.0  # pieces; position errors
 MAX_KNOTS = 20_000
-ROUNDS, GOOD_ENOUGH = 8, 1.005  # of lowering the speed where needed
-FITS, GOOD_FIT = 4, 1.02  # of quintics
+NARROWER, SOFTER = (0.6, 1.0, 1.7), (0.4, 0.6, 1.0, 1.7, 3.0)  # times the best one so far
+ROUNDS, GOOD_ENOUGH = 7, 1.005  # of lowering the speed where needed
+FITS, GOOD_FIT = 3, 1.02  # of quintics
 OUTSIDE = 1e-12  # rad or m: rounding of a hull that touches a limit
 MARGIN = 1e-9  # of the limits, for the rounding of whoever checks
 
@@ -59,10 +61,9 @@ def _slowed(
 ) -> tuple[Profile, float, float]:
     """Profile and window of the shortest duration, and that; slower and cap go on being lowered."""
     best: tuple[Profile, float, float] | None = None
-    soft = bool(np.isfinite(limits.jerk).any())
     for _ in range(ROUNDS):
         profile = Profile.of(grid, fastest(curve.shape, limits, grid, slower, cap))
-        window, total = _best_window(curve, profile, limits, best[1] if best and not soft else None)
+        window, total = _best_window(curve, profile, limits, best and best[1])
         if best is None or total < best[2]:
             best = profile, window, total
         t = _samples(profile, window)
@@ -108,10 +109,12 @@ def _best_window(
 
     Narrow: hardly slower, but a jerk. Wide: soft, but out of step with the curve's bends.
     """
-    windows = list(WINDOWS * profile.duration) if near is None else [0.6 * near, near, near / 0.6]
     soft = np.isfinite(limits.jerk) & np.isfinite(limits.acceleration) & (limits.jerk > 0)
     if near is None:
-        windows += list(np.unique(limits.acceleration[soft] / limits.jerk[soft]))
+        ramps = np.unique(limits.acceleration[soft] / limits.jerk[soft])
+        windows = [*(WINDOWS * profile.duration), *ramps]
+    else:
+        windows = [x * near for x in (SOFTER if soft.any() else NARROWER)]
     totals = []
     for window in windows:
         rates = _ratios(curve, profile, window, limits, _samples(profile, window))
@@ -165,10 +168,13 @@ def _quintics(curve: Curve, profile: Profile, window: float, limits: RateLimits)
         t = np.union1d(t, profile.breaks(window))
     rough = _motion(curve, profile, window, _samples(profile, window))
     shortest = _shortest_piece(rough, window)
-    t = _apart(t, shortest)
+    t = _apart(t, shortest / FINER)
     while len(t) < MAX_KNOTS:
         motion = _motion(curve, profile, window, t)
-        bad = _off(curve, profile, window, limits, motion) & (np.diff(t) > 2.0 * shortest)
+        worst = _off(curve, profile, window, limits, motion)
+        # Where the path itself is missed, pieces may be so short that some jerk is rounding.
+        least = np.where(worst > FAR_OFF, shortest / FINER, shortest)
+        bad = (worst > 1.0) & (np.diff(t) > 2.0 * least)
         if not bad.any():
             break
         t = np.sort(np.concatenate([t, 0.5 * (t[:-1] + t[1:])[bad]]))
@@ -212,16 +218,21 @@ def _passing_times(curve: Curve, profile: Profile, window: float) -> Array:
 
 def _off(
     curve: Curve, profile: Profile, window: float, limits: RateLimits, motion: Quintic
-) -> NDArray[np.bool_]:
-    """Pieces that differ from the motion they stand for, or may leave the joints' limits."""
+) -> Array:
+    """(K - 1,): above 1 for pieces that differ from the motion they stand for.
+
+    Above FAR_OFF for those that are far from it, or may leave the joints' limits.
+    """
     worst = np.zeros(len(motion.x) - 1)
     for true, (q, v, a) in _beside(curve, profile, window, motion):
+        rates = np.maximum(
+            over(v - true.dy, limits.velocity), over(a - true.ddy, limits.acceleration)
+        )
+        worst = np.maximum(worst, np.minimum(rates / RATE_ERROR, FAR_OFF))
         worst = np.maximum(worst, np.abs(q - true.y).max(axis=1) / POSITION_ERROR)
-        worst = np.maximum(worst, over(v - true.dy, limits.velocity) / RATE_ERROR)
-        worst = np.maximum(worst, over(a - true.ddy, limits.acceleration) / RATE_ERROR)
     low, high = motion.reach()
     outside = np.maximum(curve.lower - low, high - curve.upper).max(axis=1)
-    return np.asarray((worst > 1.0) | (outside > OUTSIDE))
+    return np.where(outside > OUTSIDE, np.inf, worst)
 
 
 def _beside(

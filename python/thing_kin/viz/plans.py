@@ -30,8 +30,10 @@ if TYPE_CHECKING:
 
     from thing_kin import Chain, Trajectory
 
+PALE = "#D5EEE5"  # of GREEN
 ARROW = 0.25  # m: how long the robot's heading is drawn
 MOST_FIGURES = 7
+WIDE = 5.0  # from where values are drawn on a log scale
 
 
 def plot_plan(
@@ -86,8 +88,8 @@ def plot_plan(
         _draw_heading(axes, base[-1], heading)
     if poses is not None:
         goal = np.asarray(poses, dtype=float).reshape(-1, 4, 4)[:, :2, 3]
-        style = {"marker": "x", "markersize": 9} if len(goal) == 1 else {"linestyle": ":"}
-        axes.plot(*goal.T, color=BLACK, label="hand, as asked", zorder=4, **style)  # type: ignore[arg-type]
+        style = "x" if len(goal) == 1 else ":"
+        axes.plot(*goal.T, style, color=BLACK, markersize=9, label="hand, as asked", zorder=4)
     _draw_robot(axes, robot, Q, base)
     tidy(axes, xlabel="x [m]", ylabel="y [m]")
     axes.set_aspect("equal", adjustable="datalim")
@@ -113,14 +115,15 @@ def plot_dexterity(
     >>> from thing_kin import viz
     >>> robot = tk.robots.thing()
     >>> figure = viz.plot_dexterity(robot, {"some": robot.random(20, rng=0)})
-    >>> figure.axes[0].get_yscale()
-    'log'
+    >>> figure.axes[0].get_xlabel()
+    'waypoint'
     """
     axes = axes_or_new(axes, figsize=(9, 4))
-    for (name, Q), color in zip(runs.items(), cycle(CYCLE), strict=False):
-        value = np.asarray(robot.dexterity(np.asarray(Q, dtype=float)))
+    values = [np.atleast_1d(robot.dexterity(np.asarray(Q, dtype=float))) for Q in runs.values()]
+    for name, value, color in zip(runs, values, cycle(CYCLE), strict=False):
         axes.plot(value, color=color, linewidth=1.6, label=f"{name}, mean {value.mean():.2f}")
-    axes.set_yscale("log")
+    if max(value.max() for value in values) > WIDE * min(value.min() for value in values):
+        axes.set_yscale("log")
     tidy(axes, xlabel="waypoint", ylabel=r"$\sqrt{\kappa/M}$")
     axes.legend(frameon=False)
     return figure_of(axes)
@@ -199,10 +202,9 @@ def _draw_base_goal(axes: Axes, goal: NDArray[np.float64], radius: float | None)
         axes.plot(*goal[:, :2].T, "+", color=GREEN, markersize=10)
     if radius is None:
         return
-    alpha = 0.25 if len(goal) == 1 else 0.04
-    for k, (x, y) in enumerate(goal[:, :2]):
+    for k, (x, y) in enumerate(goal[:, :2]):  # opaque: many of them look like one band
         label = "base's disc" if k == 0 else None
-        axes.add_patch(Circle((x, y), radius, color=GREEN, alpha=alpha, linewidth=0, label=label))
+        axes.add_patch(Circle((x, y), radius, color=PALE, linewidth=0, label=label, zorder=0.6))
         axes.update_datalim([(x - radius, y - radius), (x + radius, y + radius)])
 
 
