@@ -26,7 +26,7 @@ JointVector read_positive(const OptionalArray& argument, const char* name, int n
 
 bool is_number(const py::object& argument) {
   return PyFloat_Check(argument.ptr()) != 0 || PyLong_Check(argument.ptr()) != 0 ||
-         (py::hasattr(argument, "ndim") && argument.attr("ndim").equal(py::int_(0)));
+         (py::hasattr(argument, "ndim") && argument.attr("ndim").cast<int>() == 0);
 }
 
 LinkSpheres read_spheres(const SpheresLike& argument, const std::vector<Obstacle>& obstacles) {
