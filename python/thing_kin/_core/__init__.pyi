@@ -2527,7 +2527,7 @@ class PosePlan:
     @property
     def position_error(self) -> float:
         """
-        m.
+        Distance of the hand from the target, m.
         """
     @property
     def q(self) -> numpy.typing.NDArray[numpy.float64]:
@@ -2542,11 +2542,13 @@ class PosePlan:
     @property
     def rotation_error(self) -> float:
         """
-        rad.
+        Angle between the hand and the target, rad.
         """
     @property
     def status(self) -> str:
         """
+        How it ended.
+        
         'converged': feasible and stationary. 'infeasible': every descent ended with constraints
         violated. 'budget': iterations ran out.
         """

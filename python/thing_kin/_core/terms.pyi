@@ -120,6 +120,11 @@ class Pose(Term):
         """
         None: the tool.
         """
+    @property
+    def target(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        The pose, (4, 4).
+        """
 class Position(Term):
     """
     Where a point of a frame should be: p_goal - p, m.
@@ -155,6 +160,16 @@ class Position(Term):
         """
         None: the tool.
         """
+    @property
+    def point(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        In the frame, (3,), m.
+        """
+    @property
+    def target(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        In the world, (3,), m.
+        """
 class Orientation(Term):
     """
     How a frame should be turned: log(R_goal R^T), rad.
@@ -185,6 +200,11 @@ class Orientation(Term):
     def frame(self) -> str | None:
         """
         None: the tool.
+        """
+    @property
+    def target(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        The rotation, (3, 3).
         """
 class OrientationCone(Term):
     """
@@ -509,6 +529,11 @@ class SeedDistance(Term):
     def seed(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         (n,), rad and m.
+        """
+    @property
+    def weights(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (n,).
         """
 class JointCentering(Term):
     """
