@@ -17,6 +17,7 @@ CPP_PEERS = {
     "Pinocchio": ("pinocchio", "pinocchio_frame", "pinocchio_cod", "pinocchio_svd"),
     "KDL": ("kdl",),
     "Eigen": ("eigen_cod", "eigen_svd"),
+    "eiquadprog": ("eiquadprog",),
 }
 CPP_TITLES = {
     "fk": "forward kinematics",
@@ -30,6 +31,7 @@ CPP_TITLES = {
     "step": "task priority (4.18), exact",
     "step_regularized": "the same, filtered and selectively damped",
     "step_limited": "hand, base and posture within limits",
+    "qp_9_6_18": "quadratic program: 9 variables, 6 equations, 18 sides",
     "ik_all_ur10": "all eight solutions of a UR10 in closed form",
 }
 NONE = "\N{EN DASH}"

@@ -9,9 +9,11 @@ Without --into they are printed. In the page each stands between `<!-- table NAM
 import argparse
 import re
 from pathlib import Path
+from types import ModuleType
 
 import inverse_tables
 import markdown
+import pose_tables
 from figures import Figures
 
 TABLES = {  # the file without which there is none
@@ -26,12 +28,20 @@ TABLES = {  # the file without which there is none
     "inverse_claims": inverse_tables.FILE,
     "inverse_setup": inverse_tables.FILE,
     "inverse_steps": inverse_tables.STEPS,
+    "pose": pose_tables.FILE,
+    "pose_claims": pose_tables.FILE,
+    "pose_setup": pose_tables.FILE,
+    "pose_paths": pose_tables.PATHS,
 }
 
 
 def made(figures: Figures) -> dict[str, str]:
+    def module(name: str) -> ModuleType:
+        found = {"inverse": inverse_tables, "pose": pose_tables}
+        return found.get(name.partition("_")[0], markdown)
+
     return {
-        name: getattr(inverse_tables if name.startswith("inverse") else markdown, name)(figures)
+        name: getattr(module(name), name)(figures)
         for name, file in TABLES.items()
         if figures.content(file)
     }

@@ -31,6 +31,7 @@ class PoseCase:
 def with_arm_limits(robot: tk.Chain, limit: float) -> tk.Chain:
     lower, upper = robot.lower.copy(), robot.upper.copy()
     lower[:6], upper[:6] = -limit, limit
+    lower[6:], upper[6:] = -20.0, 20.0  # the world may be moved
     return robot.with_limits(lower=lower, upper=upper)
 
 

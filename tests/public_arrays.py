@@ -290,7 +290,7 @@ TERMS = [
     ),
     Argument("terms.BaseDistance", "center", XI[:2], term(tk.terms.BaseDistance)),
     Argument("terms.BasePosition", "target", XI[:2], term(tk.terms.BasePosition)),
-    Argument("terms.SeedDistance", "seed", Q, term(tk.terms.SeedDistance)),
+    Argument("terms.SeedDistance of", "seed", Q, term(tk.terms.SeedDistance)),
     Argument(
         "terms.SeedDistance", "weights", np.ones(9), term(lambda v: tk.terms.SeedDistance(Q, v))
     ),
@@ -325,6 +325,43 @@ INTEROP = [
     ),
     Argument("PinocchioModel", "q", Q, PIN_THING.q),
     Argument("PinocchioModel", "v", Q, PIN_THING.from_v),
+]
+
+
+def pose_with(name: str) -> Callable[[Any], Any]:
+    known: dict[str, Any] = {"target": T, "seed": Q, "base_goal": XI[:2] / 4, "base_radius": 0.5}
+
+    def call(value: Any) -> Any:
+        return tk.plan_pose(ROBOT, **{**known, name: value}, max_restarts=2).q
+
+    return call
+
+
+POSE_PLAN = [
+    Argument("plan_pose", "target", T, pose_with("target"), moderate=True),
+    Argument("plan_pose", "seed", Q, pose_with("seed"), moderate=True),
+    Argument("plan_pose", "base_goal", XI[:2] / 4, pose_with("base_goal")),
+    Argument("plan_pose", "heading", np.array([-1.0, 1.0]), pose_with("heading")),
+    Argument("plan_pose", "jacobian", np.full(9, 0.5), pose_with("jacobian")),
+]
+TRAJECTORY = tk.Trajectory(
+    ["a", "b"], [0.0, 0.5, 2.0], np.arange(6.0).reshape(3, 2), np.zeros((3, 2)), np.zeros((3, 2))
+)
+
+
+def move_with(name: str) -> Callable[[Any], Any]:
+    known = {"q0": Q[:6], "q1": Q[:6] + 0.3}
+    return lambda value: tk.move_to(ARM, **{**known, name: value}).positions
+
+
+TIMING = [
+    Argument("Trajectory.sample", "t", XI, lambda t: TRAJECTORY.sample(t)[0], moderate=True),
+    Argument("move_to", "q0", Q[:6], move_with("q0"), moderate=True),
+    Argument("move_to", "q1", Q[:6], move_with("q1"), moderate=True),
+    *(
+        Argument("move_to", name, np.full(6, 2.0), move_with(name), infinite=True)
+        for name in ("velocity_limits", "acceleration_limits", "jerk_limits")
+    ),
 ]
 SQUARE_OF_3 = tk.terms.Function(lambda x: x**2, lambda x: 2 * np.diag(x), size=3, n=3)
 SQUARE = tk.terms.Function(lambda x: x**2, lambda x: 2 * np.diag(x), size=3, name="square")
@@ -370,7 +407,43 @@ PROBLEM = [
     ),
     Argument("sqp", "x0", ABC, solved, moderate=True),
 ]
+POSES = np.stack([ROBOT.fk(Q), ROBOT.fk(Q)])
+BASE_PATH = np.stack([Q[6:], Q[6:]])
+
+
+def path_with(name: str) -> Callable[[Any], Any]:
+    known: dict[str, Any] = {"poses": POSES, "seed": Q, "base_path": BASE_PATH}
+    return lambda value: tk.plan_path(ROBOT, **{**known, "max_iterations": 2, name: value}).q
+
+
+def follower_with(name: str) -> Callable[[Any], Any]:
+    def call(value: Any) -> Any:
+        known: dict[str, Any] = {"seed": Q, "max_joint_step": 1.0, name: value}
+        if name in ("pose", "base"):
+            known.pop(name)
+        follower = tk.PathFollower(ROBOT, base="xytheta", **known)
+        pushed = {"pose": POSES[0], "base": Q[6:]}
+        return follower.push(**(pushed | ({name: value} if name in pushed else {})))
+
+    return call
+
+
+PATH = [
+    Argument("plan_path", "poses", POSES, path_with("poses"), moderate=True),
+    Argument("Path seed", "seed", Q, path_with("seed"), moderate=True),
+    Argument("plan_path", "base_path", BASE_PATH, path_with("base_path"), moderate=True),
+    Argument("plan_path", "heading", np.array([-1.0, 1.0]), path_with("heading"), moderate=True),
+    Argument("plan_path", "max_joint_step", np.ones(9), path_with("max_joint_step"), infinite=True),
+    Argument("plan_path", "joint_weights", np.ones(9), path_with("joint_weights"), moderate=True),
+    Argument("plan_path", "jacobian", np.ones(9), path_with("jacobian"), moderate=True),
+    Argument("plan_path", "warm_start", np.stack([Q, Q]), path_with("warm_start"), moderate=True),
+    Argument("PathFollower", "seed", Q, follower_with("seed"), moderate=True),
+    Argument("PathFollower.push", "pose", POSES[0], follower_with("pose"), moderate=True),
+    Argument("PathFollower.push", "base", Q[6:], follower_with("base"), moderate=True),
+]
 ARGUMENTS = [
+    *POSE_PLAN,
+    *TIMING,
     *PROBLEM,
     *INTEROP,
     *CHAIN,
@@ -382,6 +455,7 @@ ARGUMENTS = [
     *LIMITS,
     *CLOSED_FORM,
     *IK,
+    *PATH,
     *OBSTACLES,
     *TERMS,
 ]
@@ -408,4 +482,22 @@ OPTIONAL = {
     "max_step",
     "center",
     "pose",
+    "jerk_limits",
+    "base_path",
+    "heading",
+    "max_joint_step",
+    "warm_start",
 }
+
+# Labels where such a name is not optional.
+REQUIRED = (
+    "Path",
+    "rotation",
+    "JointRange",
+    "Disc",
+    "Sphere",
+    "HalfSpace",
+    "terms.Cone",
+    "terms.BaseDistance",
+    "terms.SeedDistance of",
+)

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from public_arrays import ARGUMENTS, OPTIONAL, Argument
+from public_arrays import ARGUMENTS, OPTIONAL, REQUIRED, Argument
 
 LARGE = 1e6  # m: far beyond any robot, far from overflow
 dtypes = ["f8", ">f8", "f4", "f2", "g", "i8", "u1", ">i2", "?", "c16", "O", "U3", "S2", "M8[s]"]
@@ -100,10 +100,7 @@ def test_arrays(argument: Argument, data: st.DataObject) -> None:
 @pytest.mark.parametrize("argument", ARGUMENTS, ids=lambda a: f"{a.label}-{a.name}")
 @given(value=plain)
 def test_what_is_no_array(argument: Argument, value: Any) -> None:
-    # Here it has the name of an option.
-    required = argument.label.startswith(
-        ("rotation", "JointRange", "Disc", "Sphere", "HalfSpace", "terms.BaseDistance")
-    )
+    required = argument.label.startswith(REQUIRED)  # here it has the name of an option
     if value is None and argument.name in OPTIONAL and not required:
         assert is_right(argument.call(None), argument.infinite)
         return

@@ -8,6 +8,7 @@ import pytest
 import thing_kin as tk
 from thing_kin import demo
 from thing_kin.demo import follow, wall
+from thing_kin.demo.plans import write_plans
 from thing_kin.demo.report import NEAR_SINGULAR, checks
 
 
@@ -147,3 +148,10 @@ def test_brief_run_writes_what_it_says(tmp_path):
         data = (tmp_path / name).read_bytes()
         assert data.startswith(b"\x89PNG\r\n\x1a\n")
         assert len(data) > 20_000  # an empty figure has some 5 kB
+
+
+def test_planners_pictures(tmp_path):
+    names = write_plans(tmp_path)
+    assert names == ["pose_plan.png", "path_plan.png", "dexterity.png", "trajectory.png"]
+    for name in names:
+        assert (tmp_path / name).stat().st_size > 20_000

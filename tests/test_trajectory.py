@@ -59,14 +59,14 @@ def test_a_path_is_followed_within_all_limits(q, tolerance, wheels):
     trajectory = tk.time_path(ROBOT, q, tolerance=tolerance, wheel_limits=limits)
     assert_rest_to_rest(trajectory, q)
     assert_within(trajectory, V, A)
-    t = np.linspace(0.0, trajectory.duration, 4001)
+    t = np.linspace(0.0, trajectory.duration, 1601)
     at, qd, _ = trajectory.sample(t)
     assert trajectory.path_deviation <= tolerance
     assert distance_to_polyline(at, q).max() <= trajectory.path_deviation + 1e-7
     if trajectory.duration > 0:
         assert_consistent(trajectory)
     if wheels:
-        speeds = wheel_speeds(WHEELS, at[::4, 6:], qd[::4, 6:])
+        speeds = wheel_speeds(WHEELS, at[::2, 6:], qd[::2, 6:])
         assert np.abs(speeds).max() <= WHEELS.speed * (1 + 1e-9)
     near = np.array([np.abs(at - w).max(axis=1).min() for w in q])
     step = np.abs(np.diff(at, axis=0)).max(initial=0.0)
@@ -184,6 +184,35 @@ def test_nothing_limits():
         tk.time_path(ARM, np.eye(6)[:2], velocity_limits=np.inf, acceleration_limits=np.inf)
     with pytest.raises(ValueError, match=r"velocity_limits: got none"):
         tk.move_to(ARM, np.zeros(6), np.ones(6), velocity_limits=np.inf, acceleration_limits=np.inf)
+
+
+def planned(reach: float) -> tk.PathPlan:
+    """User script 05, in a third of the waypoints."""
+    seed = np.array([0.0, -1.2, 1.4, -0.6, 1.2, 0.0, 0.0, 0.0, 0.0])
+    s = np.linspace(0.0, 1.0, 34)
+    poses = np.repeat(ROBOT.fk(seed)[None], len(s), axis=0)
+    poses[:, 0, 3] += reach * s
+    base_path = np.column_stack([3.0 * s, 0.2 * np.sin(np.pi * s), np.zeros_like(s)])
+    disc = tk.Disc(center=(1.5, 0.45), radius=0.5)
+    options = {"base_path": base_path, "base_radius": 0.3, "max_joint_step": 0.6}
+    return tk.plan_path(ROBOT, poses, seed=seed, obstacles=[disc], **options)
+
+
+def test_a_planned_path_is_timed():
+    path = planned(3.0)
+    trajectory = path.timed()
+    assert_rest_to_rest(trajectory, path.q)
+    assert_within(trajectory, V, A)
+    assert trajectory.joint_names == ROBOT.names
+    xy = trajectory.sample(np.linspace(0.0, trajectory.duration, 5000))[0][:, 6:8]
+    clearance = np.hypot(*(xy - (1.5, 0.45)).T).min() - 0.5
+    assert clearance >= -np.sqrt(2) * trajectory.path_deviation
+    assert path.timed(jerk_limits=20.0).duration > trajectory.duration
+
+
+def test_a_path_that_failed_gets_no_time():
+    with pytest.raises(ValueError, match=r"^plan: got one that failed .*, expected a success"):
+        planned(30.0).timed()
 
 
 def test_standing():

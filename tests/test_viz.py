@@ -138,6 +138,49 @@ def test_animation_of_fewer_configurations_than_frames(tmp_path):
         assert gif.n_frames == 3
 
 
+def test_a_plan_from_above():
+    T = ROBOT.fk(Q)
+    disc = tk.Disc(center=(1.0, 2.0), radius=0.4)
+    base = ROBOT.base_pose(Q)
+    figure = viz.plot_plan(
+        ROBOT, Q, poses=T, base_goal=base, base_radius=0.3, heading=(-0.5, 0.5), obstacles=[disc]
+    )
+    (axes,) = figure.axes
+    keep_out, *tube, wedge = axes.patches
+    assert (keep_out.center, keep_out.radius) == ((1.0, 2.0), 0.4)
+    assert [patch.center for patch in tube] == [tuple(row) for row in base[:, :2]]
+    assert {patch.radius for patch in tube} == {0.3}
+    assert (wedge.center, wedge.theta1) == (tuple(base[-1, :2]), np.degrees(-0.5))
+    lines = {line.get_label(): line.get_xydata() for line in axes.lines}
+    np.testing.assert_allclose(lines["hand"], T[:, :2, 3], atol=1e-14)
+    np.testing.assert_array_equal(lines["hand, as asked"], T[:, :2, 3])
+    np.testing.assert_array_equal(lines["base"], base[:, :2])
+    one = viz.plot_plan(ROBOT, Q[0], poses=T[0]).axes[0]
+    assert "base" not in {line.get_label() for line in one.lines}
+    assert not one.patches
+
+
+def test_dexterity_of_paths():
+    (axes,) = viz.plot_dexterity(ROBOT, {"a": Q, "b": Q[::-1]}).axes
+    for line, q in zip(axes.lines, (Q, Q[::-1]), strict=True):
+        np.testing.assert_allclose(line.get_ydata(), ROBOT.dexterity(q), rtol=1e-14)
+    assert axes.lines[0].get_label().startswith("a, mean ")
+
+
+def test_a_trajectory_beside_its_limits():
+    trajectory = tk.move_to(ROBOT, Q[0], Q[1])
+    figure = viz.plot_trajectory(ROBOT, trajectory, velocity_limits=np.arange(1.0, 10.0))
+    positions, velocities, accelerations = figure.axes
+    t = positions.lines[4].get_xdata()
+    assert (t[0], t[-1]) == (0.0, trajectory.duration)
+    q, qd, qdd = trajectory.sample(t)
+    np.testing.assert_array_equal(positions.lines[4].get_ydata(), q[:, 4])
+    np.testing.assert_array_equal(velocities.lines[4].get_ydata(), qd[:, 4] / 5.0)
+    share = qdd[:, 4] / ROBOT.acceleration_limits[4]
+    np.testing.assert_array_equal(accelerations.lines[4].get_ydata(), share)
+    assert np.ptp(accelerations.get_ylim()) > 2.0
+
+
 def test_figures_need_no_display_and_no_pyplot(tmp_path):
     code = (
         "import sys, numpy as np; sys.path[:] = eval(sys.argv[1])\n"

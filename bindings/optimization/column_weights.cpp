@@ -7,11 +7,7 @@ namespace thing_kin::python {
 JointVector read_column_weights(const JacobianColumns& argument, const Chain& chain) {
   if (!py::isinstance<py::str>(argument)) {
     const Batch numbers = read(argument, "jacobian", {chain.dof()}, false);
-    JointVector weights = vector_at(numbers, 0);
-    if (weights.minCoeff() < 0.0) {
-      throw InvalidArgument("jacobian", text(weights.minCoeff()), "weights of at least 0");
-    }
-    return weights;
+    return vector_at(numbers, 0);
   }
   const auto name = argument.cast<std::string>();
   if (name == "whole_body") {

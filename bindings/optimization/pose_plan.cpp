@@ -196,7 +196,7 @@ spheres : LinkSpheres, optional
     The robot's shape; its pairs must not meet. Needed for obstacles other than discs.
 jacobian : str or (n,)
     Whose dexterity counts: 'whole_body', 'arm' (without the base's columns), or weights of the
-    columns, at least 0.
+    columns, 0 to 1e6.
 frame : str or int, optional
     The frame that is to reach the target; default the last.
 search : str

@@ -6,11 +6,38 @@
 
 namespace thing_kin::python {
 
+/// An argument `robot`: a Chain or None.
+class OptionalRobot : public py::object {
+ public:
+  PYBIND11_OBJECT_DEFAULT(OptionalRobot, object, [](PyObject*) { return 1; })
+};
+
+}  // namespace thing_kin::python
+
+namespace pybind11::detail {
+
+template <>
+struct handle_type_name<thing_kin::python::OptionalRobot> {
+  static constexpr auto name = const_name("thing_kin._core.Chain | None");
+};
+
+}  // namespace pybind11::detail
+
+namespace thing_kin::python {
+
 namespace {
 
 /// A term bound to a robot that lives at least as long as the call.
-std::shared_ptr<const Term> bound(const TermRecipe& recipe, const Chain* robot) {
-  return recipe.bind(std::shared_ptr<const Chain>(std::shared_ptr<const Chain>(), robot));
+std::shared_ptr<const Term> bound(const TermRecipe& recipe, const OptionalRobot& robot) {
+  if (robot.is_none()) {
+    return recipe.bind(nullptr);
+  }
+  if (!py::isinstance<Chain>(robot)) {
+    throw InvalidArgument("robot", py::str(py::type::of(robot).attr("__name__")),
+                          "a Chain or None");
+  }
+  const auto* chain = robot.cast<const Chain*>();
+  return recipe.bind(std::shared_ptr<const Chain>(std::shared_ptr<const Chain>(), chain));
 }
 
 Batch read_variables(const Term& term, const ArrayLike& q) {
@@ -30,7 +57,8 @@ Batch read_variables(const Term& term, const ArrayLike& q) {
                         "one where it exists with its derivative: no singular posture");
 }
 
-std::pair<Array, Array> evaluate(const TermRecipe& recipe, const Chain* robot, const ArrayLike& q) {
+std::pair<Array, Array> evaluate(const TermRecipe& recipe, const OptionalRobot& robot,
+                                 const ArrayLike& q) {
   const auto term = bound(recipe, robot);
   const Batch batch = read_variables(*term, q);
   const py::ssize_t n = batch.size;
@@ -51,7 +79,7 @@ std::pair<Array, Array> evaluate(const TermRecipe& recipe, const Chain* robot, c
   return {values, jacobians};
 }
 
-Array hessian(const TermRecipe& recipe, const Chain* robot, const ArrayLike& q,
+Array hessian(const TermRecipe& recipe, const OptionalRobot& robot, const ArrayLike& q,
               const OptionalArray& weights) {
   const auto term = bound(recipe, robot);
   const Batch batch = read_variables(*term, q);

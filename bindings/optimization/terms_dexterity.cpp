@@ -54,8 +54,9 @@ void bind_measure(py::module_& m, const char* name, const char* doc) {
              return T(read_columns(jacobian), frame.value_or(""));
            }),
            py::kw_only(), py::arg("jacobian") = "whole_body", py::arg("frame") = py::none())
-      .def_property_readonly("jacobian", &jacobian_of,
-                             "'whole_body', 'arm' or the weights of the joints.")
+      .def_property_readonly(
+          "jacobian", [](const T& term) { return jacobian_of(term); },
+          "'whole_body', 'arm' or the weights of the joints.")
       .def_property_readonly(
           "frame", [](const T& term) { return frame_or_none(term.frame()); }, "None: the tool.")
       .def("__repr__", [name = std::string(name)](const T& term) {
@@ -76,15 +77,16 @@ the derivatives given.
 Parameters
 ----------
 jacobian : 'whole_body', 'arm' or (n,)
-    Whose columns count: all; all but the base's; or all, each times its joint's weight. The whole
-    body's is blind to singularities of the arm: the base's columns fill the lost direction.
+    Whose columns count: all; all but the base's; or all, each times its joint's weight, 0 to 1e6,
+    of which at least six are not zero. The whole body's is blind to singularities of the arm: the
+    base's columns fill the lost direction.
 frame : str, optional
     Default: the tool.
 
 Raises
 ------
 ValueError
-    If a weight is negative or not finite; bound to a robot with fewer than six joints that count.
+    If a weight is out of range; bound to a robot with fewer than six joints that count.
 
 Examples
 --------

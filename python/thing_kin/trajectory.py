@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 RATES = ("position", "velocity", "acceleration")
+TUBE_SHARE = 0.98  # of the tolerance for the curve; the rest for its quintics in time
 SOFT_RAMP = 0.02  # of a motion's duration: how fast acceleration changes where jerk is unlimited
 EVEN_MOST = 100  # limits of jerk or acceleration over that of the rate below, 1/s: where none is
 
@@ -353,9 +354,9 @@ def time_path(
         return _standing(robot, points[0])
     speed = _sensible_speed(points, limits)
     box = np.minimum(lower, points.min(axis=0)), np.maximum(upper, points.max(axis=0))
-    curve = smooth_curve(points, speed, tube, *box)
-    motion = retimed(curve, limits)
-    return _trajectory(robot, motion, curve.deviation_bound)
+    curve = smooth_curve(points, speed, TUBE_SHARE * tube, *box)
+    motion, error = retimed(curve, limits)
+    return _trajectory(robot, motion, curve.deviation_bound + 2.0 * error)
 
 
 def move_to(

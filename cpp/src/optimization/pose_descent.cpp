@@ -118,6 +118,10 @@ bool PoseDescent::place(const JointVector& q, int most, PosePoint& point) noexce
   IkPoint hand{q, {}};
   int returns = 0;
   if (!thing_kin::descend(ik_, most, hand, returns)) {
+    if (hand.value.cost() < miss_) {
+      miss_ = hand.value.cost();
+      nearest_ = hand.q;
+    }
     return false;
   }
   point.q = hand.q;
@@ -306,7 +310,9 @@ void PoseDescent::remember_multipliers() noexcept {
       mu_[inequalities_[beyond]] = active.multiplier;
     }
   }
-  penalty_ = std::max(penalty_, 1.5 * mu_.sum());
+  // Powell (1978): a multiplier that was large for one step does not hold up all later ones.
+  const double needed = 1.5 * mu_.sum();
+  penalty_ = std::max({kFirstPenalty, needed, 0.5 * (penalty_ + needed)});
 }
 
 double PoseDescent::predicted_violation() const noexcept {
@@ -344,7 +350,8 @@ PoseDescent::Step PoseDescent::step() noexcept {
   }
   const double came = here_->objective.value - there_->objective.value +
                       penalty_ * (here_->violation - there_->violation);
-  const bool last = exact_ && (length <= kLastStep || (feasible && gain <= kLastGain)) &&
+  const bool last = exact_ && length < 0.9 * radius_ &&
+                    (length <= kLastStep || (feasible && gain <= kLastGain)) &&
                     there_->violation <= planner_.options_.tolerance;
   if (!last && !(came >= kAccept * gain)) {
     radius_ = 0.3 * length;

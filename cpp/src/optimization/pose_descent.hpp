@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <limits>
 #include <vector>
 
 #include "thing_kin/inverse/ik_descent.hpp"
@@ -42,6 +44,9 @@ class PoseDescent {
   int iterations() const { return iterations_; }
   const IkProblem& ik() const { return ik_; }
 
+  /// Where the hand came nearest to the target of all that begin() could not bring there.
+  const JointVector& nearest_miss() const { return nearest_; }
+
   /// The sum of the inequalities' violations at q.
   double violation_at(const JointVector& q) noexcept;
 
@@ -67,6 +72,8 @@ class PoseDescent {
   PosePoint* here_ = points_.data();
   PosePoint* there_ = points_.data() + 1;
   int iterations_ = 0;
+  JointVector nearest_;
+  double miss_ = std::numeric_limits<double>::infinity();
 
   // The quadratic program of a step: z in the null space of J.
   SmallMatrix Z_, H_;

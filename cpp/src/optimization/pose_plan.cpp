@@ -5,6 +5,7 @@
 
 #include "pose_search.hpp"
 #include "thing_kin/core/error.hpp"
+#include "thing_kin/kinematics/pose_error.hpp"
 
 namespace thing_kin {
 
@@ -78,10 +79,16 @@ void PosePlanOptions::check(const Chain& chain) const {
                             "two finite angles in rising order, rad");
     }
   }
-  if (column_weights.size() > 0 &&
-      (!column_weights.allFinite() || column_weights.minCoeff() < 0.0)) {
-    throw InvalidArgument("jacobian", "a weight that is negative or not finite",
-                          "weights at least 0, one a joint");
+  constexpr double kLargestWeight = 1e6;  // a product of twelve does not overflow
+  for (const double weight : column_weights) {
+    if (!(weight >= 0.0 && weight <= kLargestWeight)) {
+      throw InvalidArgument("jacobian", text(weight), "weights from 0 to 1e6");
+    }
+  }
+  const auto counting = (column_weights.array() > 0.0).count();
+  if (column_weights.size() > 0 && counting < 6) {
+    throw InvalidArgument("jacobian", std::to_string(counting).append(" joints that count"),
+                          "at least six, without which sqrt(kappa/M) is infinite");
   }
   if (!(tolerance > 0.0)) {
     throw InvalidArgument("tolerance", text(tolerance), "a number above 0");
@@ -109,19 +116,30 @@ PosePlanner::PosePlanner(const Chain& chain, int frame, PosePlanOptions options,
       clearances_(chain, spheres, std::move(obstacles)),
       closed_form_(ClosedFormIk::find(chain, frame)),
       sequence_(chain.dof(), options_.rng) {
-  for (Eigen::Index j = 0; j < chain.dof(); ++j) {
-    if (box_.lower(j) > box_.upper(j)) {
-      const auto i = static_cast<std::size_t>(j);
-      throw InvalidArgument("base_goal",
-                            std::string("a disc or heading outside the limits of joint ")
-                                .append(quoted(chain.joint_names()[i])),
-                            "one that meets them");
-    }
+  for (int j = 0; j < chain.dof(); ++j) {
+    crossed_ = crossed_ < 0 && box_.lower(j) > box_.upper(j) ? j : crossed_;
   }
 }
 
 PosePlan PosePlanner::solve(const SE3& target, const double* seed) const {
-  return PoseSearch(*this, target, seed).run();
+  return crossed_ < 0 ? PoseSearch(*this, target, seed).run() : refuse(target, seed);
+}
+
+// Where goal or heading leave a joint no place within its limits.
+PosePlan PosePlanner::refuse(const SE3& target, const double* seed) const {
+  PosePlan plan;
+  const JointBox limits(chain_);
+  plan.q = Eigen::Map<const Eigen::VectorXd>(seed, chain_.dof());
+  for (Eigen::Index j = 0; j < plan.q.size(); ++j) {
+    plan.q[j] = limits.inside(j, plan.q[j]);
+  }
+  const Vector6 error = pose_error(forward_kinematics(chain_, plan.q.data(), frame_), target);
+  plan.position_error = error.head<3>().norm();
+  plan.rotation_error = error.tail<3>().norm();
+  plan.objective = objective(plan.q);
+  plan.worst = kLimits;
+  plan.constraint_violation = box_.lower(crossed_) - box_.upper(crossed_);
+  return plan;
 }
 
 int PosePlanner::constraints() const { return kFirstClearance + clearances_.size(); }
@@ -172,7 +190,11 @@ std::string PosePlanner::describe(int constraint) const {
     case kRotation:
       return "the hand's orientation";
     case kLimits:
-      return "joint limits";
+      return crossed_ < 0
+                 ? "joint limits"
+                 : std::string("the limits of joint ")
+                       .append(quoted(chain_.joint_names()[static_cast<std::size_t>(crossed_)]))
+                       .append(", which goal or heading is outside of,");
     case kDisc:
       return "the base's distance from its goal";
     default:

@@ -135,6 +135,9 @@ PosePlan PoseSearch::run() {
   } else {
     search_near();
   }
+  if (std::isinf(best_violation_) && descent_.nearest_miss().size() > 0) {
+    best_.q = descent_.nearest_miss();
+  }
   planner_.box_.wind_towards(seed_, best_.q);
   best_.iterations = descent_.iterations();
   best_.objective = planner_.objective(best_.q);

@@ -93,7 +93,11 @@ int PoseStarts::by_descent(JointVector& start) {
 }
 
 int PoseStarts::next(std::array<JointVector, ClosedFormSolutions::kMost>& starts) {
-  return planner_.closed_form_ ? by_closed_form(starts) : by_descent(starts[0]);
+  const int count = planner_.closed_form_ ? by_closed_form(starts) : 0;
+  if (count > 0 || exhausted_) {
+    return count;
+  }
+  return by_descent(starts[0]);
 }
 
 }  // namespace thing_kin

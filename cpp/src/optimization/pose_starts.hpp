@@ -6,7 +6,9 @@
 namespace thing_kin {
 
 /// Where descents may begin: solutions of inverse kinematics for base placements within the disc
-/// and the window of heading; those of an arm with a closed form, all branches at once.
+/// and the window of heading. Those of an arm with a closed form, all branches at once; where it
+/// has none from a placement, and for other arms, one by numerical inverse kinematics, which moves
+/// the base too.
 class PoseStarts {
  public:
   PoseStarts(const PosePlanner& planner, const IkProblem& ik, const SE3& target,

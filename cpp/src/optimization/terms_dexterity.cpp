@@ -23,11 +23,14 @@ Eigen::VectorXd weights_of(const Chain& robot, const Columns& columns) {
       weights[joint] = 0.0;
     }
   }
-  const auto counting = (weights.array() > 0.0).count();
-  if (counting < 6) {
+  const auto counting = std::to_string((weights.array() > 0.0).count());
+  if ((weights.array() > 0.0).count() < 6) {
+    constexpr const char* kExpected = "at least 6, without which M is 0 everywhere";
+    if (std::holds_alternative<ColumnWeights>(columns)) {
+      throw InvalidArgument("jacobian", counting + " weights that are not zero", kExpected);
+    }
     throw InvalidArgument(
-        "robot", quoted(robot.name()) + " with " + std::to_string(counting) + " joints that count",
-        "at least 6, without which M is 0 everywhere");
+        "robot", quoted(robot.name()) + " with " + counting + " joints that count", kExpected);
   }
   return weights;
 }
@@ -85,9 +88,11 @@ class DexterityMeasure::Bound : public FrameTerm {
 DexterityMeasure::DexterityMeasure(Kind kind, Columns columns, std::string frame)
     : kind_(kind), columns_(std::move(columns)), frame_(std::move(frame)) {
   if (const auto* weights = std::get_if<ColumnWeights>(&columns_)) {
-    check_finite("jacobian", *weights);
-    if ((weights->array() < 0.0).any()) {
-      throw InvalidArgument("jacobian", "a negative weight", "weights of at least 0");
+    constexpr double kLargest = 1e6;  // a product of twelve does not overflow
+    for (const double weight : *weights) {
+      if (!(weight >= 0.0 && weight <= kLargest)) {
+        throw InvalidArgument("jacobian", text(weight), "weights from 0 to 1e6");
+      }
     }
   }
 }

@@ -47,7 +47,7 @@ def run(out: Path, *, brief: bool = False, plots: bool = True) -> dict[str, Any]
     out : Path
         Directory for summary.json and the pictures; made if it does not exist.
     brief : bool
-        Fewer poses and no animation.
+        Fewer poses, no animation and no pictures of the planners.
     plots : bool
         Whether to draw at all (needs the extra `viz`).
 
@@ -69,6 +69,10 @@ def run(out: Path, *, brief: bool = False, plots: bool = True) -> dict[str, Any]
             from thing_kin.demo.figures import write_figures
 
             result["files"] += write_figures(outcome, out, animation=not brief, advance=advance)
+    if plots and not brief:
+        from thing_kin.demo.plans import write_plans
+
+        result["files"] += write_plans(out)
     (out / "summary.json").write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
     return result
 

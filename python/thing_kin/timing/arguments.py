@@ -83,7 +83,7 @@ def read_limits(value: Any, name: str, n: int, default: Array | None = None) -> 
 def read_tolerance(value: Any, name: str = "tolerance") -> float:
     """Take a positive number."""
     number = read_array(value, name, "one number > 0")
-    if number.shape != () or not 1e-9 <= float(number) <= 1e3:
+    if number.shape != () or not 1e-5 <= float(number) <= 1e3:
         got = number if number.ndim == 0 else f"shape {number.shape}"
-        raise ValueError(f"{name}: got {got}, expected one number from 1e-9 to 1e3")
+        raise ValueError(f"{name}: got {got}, expected one number from 1e-5 to 1e3")
     return float(number)

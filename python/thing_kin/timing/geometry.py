@@ -30,6 +30,8 @@ class Curve:
     deviation_bound: float
     corners: Array  # (M, n): the polyline, without repetitions
     corner_s: Array  # (M,)
+    lower: Array  # (n,): the box that it stays in
+    upper: Array
 
 
 def without_repetitions(q: Array) -> Array:
@@ -62,7 +64,7 @@ def smooth_curve(q: Array, speed: Array, tolerance: float, lower: Array, upper: 
         if not wide.any():
             break
         s, y = _with_more_points(s, y, wide, tolerance)
-    return Curve(shape, float(deviation.max()), q, corner_s)
+    return Curve(shape, float(deviation.max()), q, corner_s, lower, upper)
 
 
 def _spline(s: Array, y: Array) -> Quintic:

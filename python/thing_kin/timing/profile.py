@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -20,28 +21,32 @@ PER_PIECE = 3  # at least
 WINDOWS = np.geomspace(4e-3, 0.3, 10)  # of the smoothing, in durations: the best is taken
 POSITION_ERROR, RATE_ERROR = 1e-8, 1e-2  # of quintics in time: rad or m; share of the limit
 ROUNDING_JERK = 60 * 2e-16 / 1e-3  # see _shortest_piece
+FINER, FAR_OFF = 30.0, 30.0  # pieces; position errors
 MAX_KNOTS = 20_000
-ROUNDS, GOOD_ENOUGH = 8, 1.005  # of lowering the speed where needed
-FITS, GOOD_FIT = 4, 1.02  # of quintics
+NARROWER, SOFTER = (0.6, 1.0, 1.7), (0.4, 0.6, 1.0, 1.7, 3.0)  # times the best one so far
+ROUNDS, GOOD_ENOUGH = 7, 1.005  # of lowering the speed where needed
+FITS, GOOD_FIT = 3, 1.02  # of quintics
+OUTSIDE = 1e-12  # rad or m: rounding of a hull that touches a limit
 MARGIN = 1e-9  # of the limits, for the rounding of whoever checks
 
 
-def retimed(curve: Curve, limits: RateLimits) -> Quintic:
-    """Motion over time along the curve, rest to rest, within all limits.
+def retimed(curve: Curve, limits: RateLimits) -> tuple[Quintic, float]:
+    """Motion over time along the curve, rest to rest, within all limits; how far it is off it.
 
     Smoothed, the fastest profile breaks limits here and there; asked to be slower there, it needs
     no slowing down of the whole. The best of a few rounds is tried in earnest, as quintics.
     """
     grid = _grid(curve.shape.x)
     slower, cap = np.ones_like(grid), np.full_like(grid, np.inf)
-    best: Quintic | None = None
+    best: tuple[Quintic, float] | None = None
     for _ in range(FITS):
         profile, window, total = _slowed(curve, limits, grid, slower, cap)
         fit = _quintics(curve, profile, window, limits)
         stretch = _stretch(limits.ratios(fit))
         motion = fit.stretched(float(stretch.max()) * (1.0 + MARGIN))
-        if best is None or motion.x[-1] < best.x[-1]:
-            best = motion
+        if best is None or motion.x[-1] < best[0].x[-1]:
+            pairs = _beside(curve, profile, window, fit)
+            best = motion, max(float(np.abs(true.y - q).max()) for true, (q, _, _) in pairs)
         if fit.x[-1] * stretch.max() < GOOD_FIT * total:
             break
         here = _while_in(fit.x[:-1], fit.x[1:], stretch, profile, window)
@@ -56,10 +61,9 @@ def _slowed(
 ) -> tuple[Profile, float, float]:
     """Profile and window of the shortest duration, and that; slower and cap go on being lowered."""
     best: tuple[Profile, float, float] | None = None
-    soft = bool(np.isfinite(limits.jerk).any())
     for _ in range(ROUNDS):
         profile = Profile.of(grid, fastest(curve.shape, limits, grid, slower, cap))
-        window, total = _best_window(curve, profile, limits, best[1] if best and not soft else None)
+        window, total = _best_window(curve, profile, limits, best and best[1])
         if best is None or total < best[2]:
             best = profile, window, total
         t = _samples(profile, window)
@@ -105,10 +109,12 @@ def _best_window(
 
     Narrow: hardly slower, but a jerk. Wide: soft, but out of step with the curve's bends.
     """
-    windows = list(WINDOWS * profile.duration) if near is None else [0.6 * near, near, near / 0.6]
     soft = np.isfinite(limits.jerk) & np.isfinite(limits.acceleration) & (limits.jerk > 0)
     if near is None:
-        windows += list(np.unique(limits.acceleration[soft] / limits.jerk[soft]))
+        ramps = np.unique(limits.acceleration[soft] / limits.jerk[soft])
+        windows = [*(WINDOWS * profile.duration), *ramps]
+    else:
+        windows = [x * near for x in (SOFTER if soft.any() else NARROWER)]
     totals = []
     for window in windows:
         rates = _ratios(curve, profile, window, limits, _samples(profile, window))
@@ -162,10 +168,13 @@ def _quintics(curve: Curve, profile: Profile, window: float, limits: RateLimits)
         t = np.union1d(t, profile.breaks(window))
     rough = _motion(curve, profile, window, _samples(profile, window))
     shortest = _shortest_piece(rough, window)
-    t = _apart(t, shortest)
+    t = _apart(t, shortest / FINER)
     while len(t) < MAX_KNOTS:
         motion = _motion(curve, profile, window, t)
-        bad = _off(curve, profile, window, limits, motion) & (np.diff(t) > 2.0 * shortest)
+        worst = _off(curve, profile, window, limits, motion)
+        # Where the path itself is missed, pieces may be so short that some jerk is rounding.
+        least = np.where(worst > FAR_OFF, shortest / FINER, shortest)
+        bad = (worst > 1.0) & (np.diff(t) > 2.0 * least)
         if not bad.any():
             break
         t = np.sort(np.concatenate([t, 0.5 * (t[:-1] + t[1:])[bad]]))
@@ -209,20 +218,27 @@ def _passing_times(curve: Curve, profile: Profile, window: float) -> Array:
 
 def _off(
     curve: Curve, profile: Profile, window: float, limits: RateLimits, motion: Quintic
-) -> NDArray[np.bool_]:
-    """Pieces that differ from the motion they stand for, at a quarter, half and three quarters."""
-    h = np.diff(motion.x)
-    worst = np.zeros(len(h))
-    for part in (0.25, 0.5, 0.75):
-        t = motion.x[:-1] + part * h
-        true = _motion(curve, profile, window, t)
-        q, v, a = motion(t, 2)
+) -> Array:
+    """(K - 1,): above 1 for pieces that differ from the motion they stand for.
+
+    Above FAR_OFF for those that are far from it, or may leave the joints' limits.
+    """
+    worst = np.zeros(len(motion.x) - 1)
+    for true, (q, v, a) in _beside(curve, profile, window, motion):
+        rates = np.maximum(
+            over(v - true.dy, limits.velocity), over(a - true.ddy, limits.acceleration)
+        )
+        worst = np.maximum(worst, np.minimum(rates / RATE_ERROR, FAR_OFF))
         worst = np.maximum(worst, np.abs(q - true.y).max(axis=1) / POSITION_ERROR)
-        for rate, exact, limit in (
-            (v, true.dy, limits.velocity),
-            (a, true.ddy, limits.acceleration),
-        ):
-            limited = np.isfinite(limit) & (limit > 0)
-            error = np.abs(rate - exact)[:, limited] / (RATE_ERROR * limit[limited])
-            worst = np.maximum(worst, error.max(axis=1, initial=0.0))
-    return np.asarray(worst > 1.0)
+    low, high = motion.reach()
+    outside = np.maximum(curve.lower - low, high - curve.upper).max(axis=1)
+    return np.where(outside > OUTSIDE, np.inf, worst)
+
+
+def _beside(
+    curve: Curve, profile: Profile, window: float, motion: Quintic
+) -> Iterator[tuple[Quintic, list[Array]]]:
+    """Truth and quintics at a quarter, half and three quarters of each piece."""
+    for part in (0.25, 0.5, 0.75):
+        t = motion.x[:-1] + part * np.diff(motion.x)
+        yield _motion(curve, profile, window, t), motion(t, 2)

@@ -65,6 +65,11 @@ class Quintic:
         hull = np.abs(np.einsum("bk,kpn->bpn", _bernstein(DEGREE - d), c)).max(axis=0)
         return np.asarray(hull / np.diff(self.x)[:, None] ** d)
 
+    def reach(self) -> tuple[Array, Array]:
+        """(K - 1, n) each: no piece goes below the first or above the second."""
+        hull = np.einsum("bk,kpn->bpn", _bernstein(DEGREE), self.coefficients)
+        return hull.min(axis=0), hull.max(axis=0)
+
     def stretched(self, factor: float) -> Quintic:
         """Return the same curve, `factor` times slower."""
         return Quintic(self.x * factor, self.y, self.dy / factor, self.ddy / factor**2)

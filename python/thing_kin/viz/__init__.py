@@ -6,16 +6,20 @@ is made. Figures are made without a display: save them with `figure.savefig("nam
 
 from thing_kin.viz.animation import animate
 from thing_kin.viz.geometry import plot_path, plot_stick_figures, stick_figure
+from thing_kin.viz.plans import plot_dexterity, plot_plan, plot_trajectory
 from thing_kin.viz.series import plot_joint_steps, plot_joints, plot_singular_values
 from thing_kin.viz.trace import plot_trace
 
 __all__ = [
     "animate",
+    "plot_dexterity",
     "plot_joint_steps",
     "plot_joints",
     "plot_path",
+    "plot_plan",
     "plot_singular_values",
     "plot_stick_figures",
     "plot_trace",
+    "plot_trajectory",
     "stick_figure",
 ]

@@ -90,6 +90,7 @@ class PosePlanner {
   friend class PoseDescent;  // one descent
   friend class PoseStarts;   // where descents begin
 
+  PosePlan refuse(const SE3& target, const double* seed) const;
   bool is_base_clear(const Eigen::Vector2d& base) const noexcept;
 
   const Chain& chain_;
@@ -101,6 +102,7 @@ class PosePlanner {
   Clearances clearances_;
   std::optional<ClosedFormIk> closed_form_;
   LowDiscrepancy sequence_;
+  int crossed_ = -1;  // a joint without any place
 };
 
 /// In a sentence: "converged", "infeasible: the hand's position is off by 0.3 m".

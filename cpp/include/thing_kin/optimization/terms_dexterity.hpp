@@ -10,7 +10,7 @@ namespace thing_kin::terms {
 /// The columns of the Jacobian that a measure of dexterity counts.
 struct WholeBody {};
 struct Arm {};  ///< all but the base's
-/// All, each times its joint's weight, (n), at least 0.
+/// All, each times its joint's weight, (n), 0 to 1e6.
 using ColumnWeights = Eigen::VectorXd;
 using Columns = std::variant<WholeBody, Arm, ColumnWeights>;
 

@@ -1,0 +1,1 @@
+"""One file each, which registers itself."""
