@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -165,9 +166,9 @@ class LeastSquares {
     if (!is_free) {
       return 0;
     }
-    static const ceres::Solver::Options kOptions = least_squares_options();
+    static const ceres::Solver::Options options = least_squares_options();
     ceres::Solver::Summary summary;
-    ceres::Solve(kOptions, &problem, &summary);
+    ceres::Solve(options, &problem, &summary);
     return static_cast<int>(summary.iterations.size());
   }
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "thing_kin/core/tolerance.hpp"
 #include "thing_kin/optimization/optimality.hpp"
@@ -85,8 +86,9 @@ bool SqpSearch::trust_loop() {
     const bool improves = is_small
                               ? trial.actual >= -rounding() && step > 0.0 && polished_ < kPolishes
                               : is_acceptable(trial);
-    if (improves && move(trial)) {
-      polished_ = is_small ? polished_ + 1 : 0;
+    if ((improves || is_polish(trial)) && move(trial)) {
+      const bool is_told = !is_small && trial.actual >= options_.c * trial.predicted;
+      polished_ = is_told ? 0 : polished_ + 1;
       delta_ = std::min(options_.delta_max, options_.tau_plus * delta_);
       return true;
     }
