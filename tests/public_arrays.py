@@ -500,4 +500,7 @@ REQUIRED = (
     "terms.Cone",
     "terms.BaseDistance",
     "terms.SeedDistance of",
+    "at_most",
+    "at_least",
+    "between",
 )

@@ -23,7 +23,7 @@ def test_it_passes_through() -> None:
     at = problem.evaluate(X)
     np.testing.assert_array_equal(at.values, VALUE(X))
     np.testing.assert_array_equal(at.jacobian, JACOBIAN(X))
-    assert problem.constraint_names == ["three[0]", "three[1]", "three[2]"]
+    assert problem.constraint_names == ("three[0]", "three[1]", "three[2]")
 
 
 def test_one_number_needs_no_brackets() -> None:

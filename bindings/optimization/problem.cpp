@@ -458,7 +458,9 @@ Examples
 )")
       .def_property_readonly(
           "n", [](const Problem& self) { return self.variables(); }, "How many variables.")
-      .def_property_readonly("names", &Problem::names, "Names of the variables.")
+      .def_property_readonly(
+          "names", [](const Problem& self) { return py::tuple(py::cast(self.names())); },
+          "Names of the variables.")
       .def_property_readonly(
           "lower", [](const Problem& self) { return to_array(self.lower()); },
           "(n,): lower bounds of the variables.")
@@ -472,7 +474,7 @@ Examples
             for (int row = 0; row < self.rows(); ++row) {
               names.push_back(self.row_name(row));
             }
-            return names;
+            return py::tuple(py::cast(names));
           },
           "Names of the m numbers that are bounded.")
       .def_property_readonly(

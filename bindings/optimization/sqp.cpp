@@ -130,10 +130,11 @@ progress though x is not stationary; x is the best point found, feasible or not.
       .def_readonly("objective", &SqpResult::objective, "f(x).")
       .def_readonly("constraint_violation", &SqpResult::constraint_violation,
                     "The largest of a constraint or bound.")
-      .def_readonly("kkt_residual", &SqpResult::kkt_residual,
-                    "How far x is from stationary: the largest entry of the Lagrangian's gradient "
-                    "or of multiplier times slack, relative to the largest of 1, the objective's "
-                    "gradient and the constraints' pulls.")
+      .def_readonly(
+          "kkt_residual", &SqpResult::kkt_residual,
+          "How far x is from stationary: what is left of the Lagrangian's gradient, relative "
+          "to the largest of 1, the objective's gradient and the constraints' pulls, or a "
+          "multiplier times its slack, relative to the first two.")
       .def_property_readonly(
           "multipliers", [](const SqpResult& r) { return to_array(r.multipliers); },
           "(m,), of the constraints, in the order of Problem.constraint_names; > 0: at the upper "

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <mutex>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Cholesky>
 #include <ceres/ceres.h>
+#include <glog/logging.h>
 
 #include "smooth_model.hpp"
 #include "thing_kin/core/error.hpp"
@@ -163,10 +166,47 @@ class LeastSquares {
     if (!is_free) {
       return 0;
     }
-    static const ceres::Solver::Options kOptions = least_squares_options();
+    static const ceres::Solver::Options options = least_squares_options();
     ceres::Solver::Summary summary;
-    ceres::Solve(kOptions, &problem, &summary);
+    ceres::Solve(options, &problem, &summary);
     return static_cast<int>(summary.iterations.size());
+  }
+};
+
+// Ceres' line search warns on stderr where the function is flat to rounding, which is how it ends
+// here. The level is the process's: the first of several threads lowers it, the last restores it.
+class Silence {
+ public:
+  Silence() {
+    const std::scoped_lock lock(mutex());
+    if (count()++ == 0) {
+      level() = FLAGS_minloglevel;
+      FLAGS_minloglevel = google::GLOG_ERROR;
+    }
+  }
+  ~Silence() {
+    const std::scoped_lock lock(mutex());
+    if (--count() == 0) {
+      FLAGS_minloglevel = level();
+    }
+  }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+  Silence(Silence&&) = delete;
+  Silence& operator=(Silence&&) = delete;
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex one;
+    return one;
+  }
+  static int& count() {
+    static int threads = 0;
+    return threads;
+  }
+  static int& level() {
+    static int before = 0;
+    return before;
   }
 };
 
@@ -203,13 +243,14 @@ class Bfgs {
     options.logging_type = ceres::SILENT;
     const ceres::GradientProblem problem(new Function(smooth));
     ceres::GradientProblemSolver::Summary summary;
+    const Silence silence;
     ceres::Solve(options, problem, p.data(), &summary);
     return static_cast<int>(summary.iterations.size());
   }
 };
 
 constexpr double kAccuracy = 1e-9;
-constexpr double kProximity = 1e-5;  // relative to the curvature
+constexpr double kMostStiffening = 1e6;
 
 // What the model's numbers are like.
 struct Scales {
@@ -229,6 +270,11 @@ double accuracy_at(const VectorXd& p, const Scales& scales) {
   return std::max(1e-14, kAccuracy * std::min({1.0, scales.radius, largest(p)}));
 }
 
+// So weak that what is flat may move a thousand boxes; so strong that there is a Cholesky factor.
+double proximity_of(const ConvexModel& model, const Scales& scales) {
+  return std::max(1e-3 * largest(model.gradient) / scales.radius, 1e-9 * scales.curvature);
+}
+
 VectorXd row_norms(const ConvexModel& model) {
   VectorXd norms = model.jacobian.rowwise().norm();
   return (norms.array() > 1e-12).select(norms, 1.0);
@@ -245,22 +291,24 @@ ConvexStep augmented_lagrangian(const ConvexModel& model, Index strict, const Sm
   smooth.penalty().tail(strict).setConstant(std::numeric_limits<double>::infinity());
   smooth.stiffness() = (100.0 * scales.curvature / norms.array().square()).matrix();
   ConvexStep step{VectorXd::Zero(model.variables()), VectorXd::Zero(model.rows()), 0};
+  const double proximity = proximity_of(model, scales);
+  const double stiffest = kMostStiffening * largest(smooth.stiffness());
   double left = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMost; ++i) {
-    smooth.set_proximity(kProximity * scales.curvature, step.p);
+    smooth.set_proximity(proximity, step.p);
     smooth.multipliers() = step.multipliers;
     VectorXd p = step.p;
     step.iterations += minimizer.minimize(smooth, p, accuracy_at(p, scales));
     const VectorXd y = smooth.pull(smooth.distance(p));
     const double moved = largest(p - step.p);
     const VectorXd gap = (y - step.multipliers).cwiseQuotient(smooth.stiffness());
-    const double now = std::max(moved, largest(gap.cwiseQuotient(norms)));
+    const double now = largest(gap.cwiseQuotient(norms));
     step.p = p;
     step.multipliers = y;
-    if (now <= accuracy_at(p, scales)) {
+    if (std::max(moved, now) <= accuracy_at(p, scales)) {
       break;
     }
-    if (now > 0.1 * left) {
+    if (now > 0.1 * left && largest(smooth.stiffness()) < stiffest) {
       smooth.stiffness() *= 10.0;
     }
     left = now;
@@ -272,17 +320,16 @@ ConvexStep smoothed(const ConvexModel& model, const LeastSquares& minimizer) {
   const Scales scales(model);
   ConvexStep step{VectorXd::Zero(model.variables()), VectorXd::Zero(model.rows()), 0};
   SmoothModel smooth(model);
-  // A step that Ceres has to cut back by more than ten boxes takes many of its iterations.
-  const double proximity = 1e-6 * scales.curvature + 0.1 * largest(model.gradient) / scales.radius;
+  const double proximity = 30.0 * proximity_of(model, scales);  // stiff: less of a way per step
   for (double width = 0.1; width > 0.5 * kAccuracy; width *= 0.1) {
     smooth.stiffness().setConstant(model.penalty / width);
     for (int i = 0; i < 20; ++i) {
       smooth.set_proximity(proximity, step.p);
       VectorXd p = step.p;
-      step.iterations += minimizer.minimize(smooth, p, kAccuracy);
+      step.iterations += minimizer.minimize(smooth, p, accuracy_at(p, scales));
       const double moved = largest(p - step.p);
       step.p = p;
-      if (moved <= std::max(width, kAccuracy)) {
+      if (moved <= std::max(width * std::min(1.0, largest(p)), accuracy_at(p, scales))) {
         break;
       }
     }

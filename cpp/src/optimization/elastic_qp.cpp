@@ -150,10 +150,14 @@ class InteriorPoint {
     return fixed_.select(0.0, g);
   }
 
-  // Complementarity and what is left of the gradient, relative to the gradient's size.
+  // Complementarity, relative to the gradient's size, and what is left of the gradient, relative to
+  // the largest number in it.
   double error() const {
     const double scale = std::max(1e-12, model_.gradient.cwiseAbs().maxCoeff());
-    return std::max(gap() / std::max(1.0, scale), kOfSlope * slope().cwiseAbs().maxCoeff() / scale);
+    const double pulls =
+        sides_.G.size() == 0 ? 0.0 : model_.penalty * sides_.G.cwiseAbs().maxCoeff();
+    return std::max(gap() / std::max(1.0, scale),
+                    kOfSlope * slope().cwiseAbs().maxCoeff() / std::max(scale, pulls));
   }
 
   void factorize() {

@@ -76,8 +76,9 @@ Optimality optimality(const Problem& problem, const VectorView& x, const Lineari
   }
   result.multipliers = multipliers.head(m);
   result.bound_multipliers = multipliers.tail(n);
-  const double scale = std::max({1.0, largest(at.gradient), largest(force)});
-  result.residual = std::max(largest(at.gradient + pull * force), complementarity) / scale;
+  const double scale = std::max(1.0, largest(at.gradient));
+  result.residual = std::max(largest(at.gradient + pull * force) / std::max(scale, largest(force)),
+                             complementarity / scale);
   result.violation = largest(problem.row_violations(at.value));
   result.violation =
       std::max(result.violation,

@@ -20,20 +20,25 @@ constexpr double kRestoringCurvature = 1e-2;
 }  // namespace
 
 SqpSearch::Model SqpSearch::convexify(Convexity convexity) const {
+  const VectorXd pull = merit_.squares * signed_violation();
   Model model;
-  model.gradient = merit_.scale * at_.gradient;
+  model.gradient = merit_.scale * at_.gradient + at_.jacobian.transpose() * pull;
   model.hessian = MatrixXd::Zero(x_.size(), x_.size());
-  problem_.add_hessian(x_, merit_.scale, multipliers_, model.hessian);
+  problem_.add_hessian(x_, merit_.scale, multipliers_ + pull, model.hessian);
+  const MatrixXd violated =
+      (pull.array() != 0.0).cast<double>().matrix().asDiagonal() * at_.jacobian;
+  model.hessian += merit_.squares * violated.transpose() * violated;
   if (merit_.scale == 0.0) {
-    model.hessian.diagonal().array() += kRestoringCurvature;
+    model.hessian.diagonal().array() += kRestoringCurvature * merit_.penalty;
   }
+  const Index rows = merit_.penalty > 0.0 ? at_.value.size() : 0;
   model.convex = {model.gradient,
                   {},
                   merit_.penalty,
-                  at_.value,
-                  at_.jacobian,
-                  problem_.row_lower(),
-                  problem_.row_upper(),
+                  at_.value.head(rows),
+                  at_.jacobian.topRows(rows),
+                  problem_.row_lower().head(rows),
+                  problem_.row_upper().head(rows),
                   (problem_.lower() - x_).cwiseMax(-delta_).cwiseMin(0.0),
                   (problem_.upper() - x_).cwiseMin(delta_).cwiseMax(0.0)};
   add_curvature(convexity, model);
@@ -47,7 +52,7 @@ void SqpSearch::add_curvature(Convexity convexity, Model& model) const {
   ConvexQuadratic convex = without_negative_curvature(model.hessian);
   const double change = (convex.hessian - model.hessian).cwiseAbs().maxCoeff();
   const bool is_convex = change <= 1e-12 * model.hessian.cwiseAbs().maxCoeff();
-  if (convexity == Convexity::kAcross && !is_convex) {
+  if (convexity == Convexity::kAcross && !is_convex && merit_.squares == 0.0) {
     VectorXd value;
     const MatrixXd C = held(value);
     if (C.rows() > 0) {

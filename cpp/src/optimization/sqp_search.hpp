@@ -24,10 +24,11 @@ class SqpSearch {
   bool out_of_budget() const;
 
  private:
-  // What a merit weighs: scale f + penalty l1_violation.
+  // What is minimized: scale f + penalty sum |violation| + squares sum violation^2 / 2.
   struct Merit {
     double scale;
     double penalty;
+    double squares;
   };
   enum class End : std::uint8_t { kOptimal, kStationary, kBudget };
   enum class Convexity : std::uint8_t { kAcross, kClipped };
@@ -61,9 +62,13 @@ class SqpSearch {
   bool move(const Trial& trial);
   void note(bool accepted);
 
+  double largest_violation() const;
   bool is_feasible() const;
   bool is_optimal() const;
-  double merit() const;
+  Eigen::VectorXd signed_violation() const;
+  double merit() const { return merit(at_.objective, at_.value); }
+  double merit(double objective, const VectorView& value) const;
+  double least_improvement() const;
   double rounding() const;
 
   const Problem& problem_;

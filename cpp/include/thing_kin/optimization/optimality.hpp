@@ -13,9 +13,9 @@ struct Optimality {
 };
 
 /// Multipliers with the right signs that make the Lagrangian's gradient least, of the constraints
-/// that are active within `activity` (relative to 1 and to the bound); what is left of the gradient
-/// and of multiplier times slack is the residual, relative to 1, to the gradient and to the largest
-/// of the constraints' pulls that make it up. `at`: the linearization at x.
+/// that are active within `activity` (relative to 1 and to the bound). The residual is what is left
+/// of the gradient, relative to the largest of 1, the objective's gradient and the constraints'
+/// pulls, or multiplier times slack relative to the first two. `at`: the linearization at x.
 Optimality optimality(const Problem& problem, const VectorView& x, const Linearization& at,
                       double activity = 1e-6);
 
