@@ -21,8 +21,8 @@ import thing_kin as tk
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
-from arms import panda  # noqa: E402
-from path_cases import make_case, worst  # noqa: E402
+from arms import panda
+from path_cases import make_case, worst
 
 TOLERANCE = 1e-6
 
@@ -64,7 +64,10 @@ def solve(robot: tk.Chain, number: int, waypoints: int) -> dict[str, Any]:
 
 def table(rows: list[dict[str, Any]]) -> str:
     """A line a robot, then the reasons."""
-    lines = ["| robot | paths | success | iterations | ms, median | ms, 99 % |", "|---|" + "---:|" * 5]
+    lines = [
+        "| robot | paths | success | iterations | ms, median | ms, 99 % |",
+        "|---|" + "---:|" * 5,
+    ]
     names = dict.fromkeys(row["robot"] for row in rows)
     for name in [*names, "all"]:
         some = [row for row in rows if name in (row["robot"], "all")]
@@ -77,7 +80,9 @@ def table(rows: list[dict[str, Any]]) -> str:
         )
     reasons = collections.Counter(row["reason"] for row in rows if not row["success"])
     lines += ["", "| what failed | paths |", "|---|---:|"]
-    lines += [f"| {what or 'wrongly called a success'} | {n} |" for what, n in reasons.most_common()]
+    lines += [
+        f"| {what or 'wrongly called a success'} | {n} |" for what, n in reasons.most_common()
+    ]
     return "\n".join(lines)
 
 

@@ -5,6 +5,7 @@ path's, its base is within base_radius of the base path, it keeps clear of every
 below max_joint_step. So the case has a solution; the planner does not know it.
 """
 
+import itertools
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -156,7 +157,7 @@ def dense(q: Vector, between: int = 12) -> Vector:
     if len(q) == 1:
         return q
     t = np.linspace(0.0, 1.0, between, endpoint=False)[:, None]
-    parts = [a + t * (b - a) for a, b in zip(q[:-1], q[1:], strict=True)]
+    parts = [a + t * (b - a) for a, b in itertools.pairwise(q)]
     return np.vstack([*parts, q[-1:]])
 
 

@@ -22,6 +22,7 @@ LAYERS: dict[str, tuple[str, ...]] = {
     "kinematics": ("model", "linalg"),
     "inverse": ("kinematics",),
     "optimization": ("inverse",),
+    "planning": ("optimization",),
 }
 KDL_SOURCE = CPP / "src" / "model" / "kdl_chain.cpp"
 URDF_SOURCE = CPP / "src" / "model" / "urdf.cpp"

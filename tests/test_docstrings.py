@@ -72,6 +72,8 @@ def test_it_has_a_docstring(path: str) -> None:
 def test_its_examples_are_true(path: str) -> None:
     if path == "thing_kin.interop.to_spatialmath":
         pytest.importorskip("spatialmath")
+    if "convex_hull" in path or "MeshClearance" in path:
+        pytest.importorskip("coal")  # comes with Pinocchio
     if path == "thing_kin.interop.to_scipy":
         pytest.importorskip("scipy", minversion="1.16")  # the first with RigidTransform
     text = text_of(path)

@@ -337,13 +337,13 @@ def test_misuse_of_poses_and_seed() -> None:
     case = script(10)
     bad = case.poses.copy()
     bad[3, 0, 3] = np.nan
-    with pytest.raises(ValueError, match="^poses"):
+    with pytest.raises(ValueError, match=r"^poses"):
         dataclasses.replace(case, poses=bad).plan()
-    with pytest.raises(ValueError, match="^poses"):
+    with pytest.raises(ValueError, match=r"^poses"):
         dataclasses.replace(case, poses=case.poses[:0]).plan()
-    with pytest.raises(ValueError, match="^seed"):
+    with pytest.raises(ValueError, match=r"^seed"):
         dataclasses.replace(case, seed=SEED[:4]).plan()
-    with pytest.raises(ValueError, match="^robot"):
+    with pytest.raises(ValueError, match=r"^robot"):
         tk.plan_path(
             tk.Chain.from_dh([tk.DH(a=1.0, joint="revolute")] * 3),
             np.eye(4)[None],

@@ -350,6 +350,43 @@ def test_joint_centering(case: Case) -> None:
     assert_derivatives(terms.JointCentering(), robot, case.q)
 
 
+# In a problem
+
+
+def around(obstacles: list, q: np.ndarray, T: np.ndarray) -> tk.SqpResult:
+    """The pose T nearest to q, two centimeters clear of the obstacles."""
+    problem = tk.Problem(ROBOT)
+    problem.minimize(terms.SeedDistance(q))
+    problem.equal(terms.Pose(T))
+    problem.at_least(terms.Clearance(SHAPE, obstacles), 0.02)
+    return tk.sqp(problem, q)
+
+
+@pytest.mark.parametrize("kind", ["sphere", "capsule", "box", "ceiling", "disc"])
+def test_the_robot_gives_way_to_an_obstacle_in_its_elbow(kind: str) -> None:
+    T = ROBOT.fk(SEED)
+    elbow = SHAPE.centers(ROBOT, SEED)[[frame for frame, _, _ in SHAPE.spheres].index("forearm")]
+    obstacle = {
+        "sphere": tk.Sphere(np.add(elbow, (0.0, 0.1, 0.05)), 0.1),
+        "capsule": tk.Capsule(elbow - (0.0, 0.0, 2.0), elbow, 0.05),
+        "box": tk.Box(size=(0.2, 0.3, 0.2), center=elbow, rpy=(0.1, 0.2, 0.3)),
+        "ceiling": tk.HalfSpace((0.0, 0.0, -1.0), point=np.add(elbow, (0.0, 0.0, 0.04))),
+        "disc": tk.Disc(np.add(SEED[6:8], (0.1, 0.05)), 0.2),
+    }[kind]
+    is_disc = isinstance(obstacle, tk.Disc)
+
+    def clearance(q: np.ndarray) -> float:
+        if is_disc:
+            return obstacle.signed_distance((*ROBOT.base_pose(q)[:2], 0.0))
+        return (obstacle.signed_distance(SHAPE.centers(ROBOT, q)) - 0.08).min()
+
+    assert clearance(SEED) < 0.0
+    result = around([obstacle], SEED, T)
+    assert result.success, result.message
+    assert clearance(result.x) == pytest.approx(0.02, abs=1e-6)  # it goes no further than it must
+    assert np.abs(tk.pose_error(ROBOT.fk(result.x), T)).max() < 1e-6
+
+
 # All of them
 
 ALL = [
@@ -439,3 +476,27 @@ def test_what_they_say_of_themselves(term: terms.Term) -> None:
 def test_what_does_not_fit(call, said: str) -> None:
     with pytest.raises(ValueError, match=f"^{said}.*, expected"):
         call()
+
+
+def test_what_they_are_made_of() -> None:
+    T = tk.transform(xyz=(1, 2, 3), rpy=(0.1, 0.2, 0.3))
+    assert np.array_equal(terms.Pose(T).target, T)
+    assert terms.Pose(T).frame is None
+    assert np.array_equal(terms.Orientation(T[:3, :3], frame="tool").target, T[:3, :3])
+    assert terms.Orientation(T[:3, :3], frame="tool").frame == "tool"
+    position = terms.Position((1, 2, 3), frame="forearm", point=(4, 5, 6))
+    assert position.target.tolist() == [1, 2, 3]
+    assert position.point.tolist() == [4, 5, 6]
+    cone = terms.OrientationCone((0, 3, 4), (0, 0, -2))
+    np.testing.assert_allclose(cone.axis, (0, 0.6, 0.8), atol=1e-16)
+    assert cone.direction.tolist() == [0, 0, -1]
+    assert terms.BaseDistance((1, 2)).center.tolist() == [1, 2]
+    assert terms.BasePosition((1, 2)).target.tolist() == [1, 2]
+    assert terms.Dexterity().jacobian == "whole_body"
+    assert terms.Dexterity(jacobian="arm").jacobian == "arm"
+    assert terms.Dexterity(jacobian=WEIGHTS, frame="tool").jacobian == tuple(WEIGHTS)
+    seed = terms.SeedDistance([1, 2], weights=3.0)
+    assert seed.seed.tolist() == [1, 2]
+    assert seed.weights.tolist() == [3, 3]
+    with pytest.raises(ValueError, match="read-only"):
+        seed.seed[0] = 0.0

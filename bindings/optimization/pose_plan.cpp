@@ -128,7 +128,9 @@ Examples
           "Whether q is a local optimum that keeps all constraints, by forward kinematics of q.")
       .def_property_readonly(
           "status", [](const ExplainedPlan& p) { return to_string(p.plan.status); },
-          R"('converged': feasible and stationary. 'infeasible': every descent ended with constraints
+          R"(How it ended.
+
+'converged': feasible and stationary. 'infeasible': every descent ended with constraints
 violated. 'budget': iterations ran out.)")
       .def_property_readonly(
           "message", [](const ExplainedPlan& p) { return p.message; },
@@ -137,8 +139,10 @@ violated. 'budget': iterations ran out.)")
                              "sqrt(kappa/M) at q, [M17] (4.33).")
       .def_property_readonly("constraint_violation", number(&PosePlan::constraint_violation),
                              "The largest of all constraints, m or rad.")
-      .def_property_readonly("position_error", number(&PosePlan::position_error), "m.")
-      .def_property_readonly("rotation_error", number(&PosePlan::rotation_error), "rad.")
+      .def_property_readonly("position_error", number(&PosePlan::position_error),
+                             "Distance of the hand from the target, m.")
+      .def_property_readonly("rotation_error", number(&PosePlan::rotation_error),
+                             "Angle between the hand and the target, rad.")
       .def_property_readonly("iterations", number(&PosePlan::iterations),
                              "Quadratic programs of all descents.")
       .def_property_readonly("restarts", number(&PosePlan::restarts), "Descents beside the seed's.")

@@ -37,6 +37,9 @@ array([2.5])
       .def_property_readonly(
           "seed", [](const terms::SeedDistance& term) { return frozen_copy(term.seed()); },
           "(n,), rad and m.")
+      .def_property_readonly(
+          "weights", [](const terms::SeedDistance& term) { return frozen_copy(term.weights()); },
+          "(n,).")
       .def("__repr__", [](const terms::SeedDistance& term) {
         return py::str("SeedDistance({} joints)").format(term.seed().size());
       });

@@ -5,6 +5,18 @@
 
 namespace thing_kin::python {
 
+namespace {
+
+Array frozen_matrix(const Eigen::MatrixXd& matrix) {
+  const py::ssize_t shape[] = {matrix.rows(), matrix.cols()};
+  Array array = make_array(shape, 2);
+  write_matrix(matrix, array.mutable_data());
+  array.attr("flags").attr("writeable") = false;
+  return array;
+}
+
+}  // namespace
+
 void bind_terms_pose(py::module_& m) {
   TermClass<terms::Pose>(m, "Pose", R"(Where a frame should be: six numbers, zero there.
 
@@ -36,6 +48,9 @@ Examples
              return terms::Pose(read_pose(batch.data, "target"), frame.value_or(""));
            }),
            py::arg("target"), py::kw_only(), py::arg("frame") = py::none())
+      .def_property_readonly(
+          "target", [](const terms::Pose& term) { return frozen_matrix(term.target().matrix()); },
+          "The pose, (4, 4).")
       .def_property_readonly(
           "frame", [](const terms::Pose& term) { return frame_or_none(term.frame()); },
           "None: the tool.")
@@ -76,6 +91,12 @@ array([0.      , 0.      , 0.910841])
           py::arg("target"), py::kw_only(), py::arg("frame") = py::none(),
           py::arg("point") = py::none())
       .def_property_readonly(
+          "target", [](const terms::Position& term) { return frozen(term.target()); },
+          "In the world, (3,), m.")
+      .def_property_readonly(
+          "point", [](const terms::Position& term) { return frozen(term.point()); },
+          "In the frame, (3,), m.")
+      .def_property_readonly(
           "frame", [](const terms::Position& term) { return frame_or_none(term.frame()); },
           "None: the tool.")
       .def("__repr__", [](const terms::Position& term) {
@@ -109,6 +130,9 @@ array([-1.570796,  0.      ,  0.      ])
              return terms::Orientation(read_rotation(batch.data, "target"), frame.value_or(""));
            }),
            py::arg("target"), py::kw_only(), py::arg("frame") = py::none())
+      .def_property_readonly(
+          "target", [](const terms::Orientation& term) { return frozen_matrix(term.target()); },
+          "The rotation, (3, 3).")
       .def_property_readonly(
           "frame", [](const terms::Orientation& term) { return frame_or_none(term.frame()); },
           "None: the tool.")

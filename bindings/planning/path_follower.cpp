@@ -111,7 +111,7 @@ Examples
                        std::optional<double> base_radius, const OptionalArray& heading,
                        const ObstacleList& obstacles, const SpheresLike& spheres,
                        const OptionalArray& max_joint_step, const OptionalArray& joint_weights,
-                       const ColumnsLike& jacobian, std::optional<double> dexterity_weight) {
+                       const JacobianColumns& jacobian, std::optional<double> dexterity_weight) {
              const Batch start = read(seed, "seed", {robot.dof()}, false);
              check_magnitude(start, "seed");
              const double theta = heading_of(robot, start.data);

@@ -55,6 +55,17 @@ std::vector<PathGoal> read_goals(const ArrayLike& poses) {
   return goals;
 }
 
+// Of a matrix; 0 for anything else, which read() has a message for.
+py::ssize_t columns_of(const py::object& argument) {
+  try {
+    const py::object array = py::module_::import("numpy").attr("asarray")(argument);
+    const auto shape = array.attr("shape").cast<py::tuple>();
+    return shape.size() == 2 ? shape[1].cast<py::ssize_t>() : 0;
+  } catch (const py::error_already_set&) {
+    return 0;
+  }
+}
+
 // x, y and, if there is a third column, theta: unwrapped, and by whole turns nearest to the seed's.
 void read_base_path(const OptionalArray& argument, double theta, PathProblem& problem,
                     std::vector<PathGoal>& goals) {
@@ -65,9 +76,7 @@ void read_base_path(const OptionalArray& argument, double theta, PathProblem& pr
     return;
   }
   check_omni_base(problem.chain());
-  const py::object array = py::module_::import("numpy").attr("asarray")(argument);
-  const auto shape = array.attr("shape").cast<py::tuple>();
-  const py::ssize_t columns = shape.size() == 2 && shape[1].cast<py::ssize_t>() == 2 ? 2 : 3;
+  const py::ssize_t columns = columns_of(argument) == 2 ? 2 : 3;
   const Batch path = read(argument, "base_path", {columns});
   check_magnitude(path, "base_path");
   if (path.single || !std::cmp_equal(path.count, goals.size())) {
@@ -141,7 +150,7 @@ void bind_path_plan(py::module_& m) {
          const OptionalArray& base_path, std::optional<double> base_radius,
          const OptionalArray& heading, const ObstacleList& obstacles, const SpheresLike& spheres,
          const std::string& method, const OptionalArray& max_joint_step,
-         const OptionalArray& joint_weights, const ColumnsLike& jacobian,
+         const OptionalArray& joint_weights, const JacobianColumns& jacobian,
          std::optional<double> dexterity_weight, const WarmStart& warm_start, int max_iterations,
          double position_tolerance, double rotation_tolerance, double constraint_tolerance) {
         PathOptions options;

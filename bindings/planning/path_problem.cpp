@@ -24,29 +24,9 @@ JointVector read_positive(const OptionalArray& argument, const char* name, int n
   return values;
 }
 
-JointVector read_columns(const ColumnsLike& argument, const Chain& robot) {
-  const int n = robot.dof();
-  JointVector weights = JointVector::Ones(n);
-  if (!py::isinstance<py::str>(argument)) {
-    weights = read_number_or_vector(argument, "jacobian", n, Finite::kYes);
-    for (const double weight : weights) {
-      if (!(weight >= 0.0)) {
-        throw InvalidArgument("jacobian", text(weight), "weights >= 0");
-      }
-    }
-    return weights;
-  }
-  const auto name = argument.cast<std::string>();
-  if (name == "arm") {
-    if (robot.base_joints()) {
-      for (const int j : *robot.base_joints()) {
-        weights[j] = 0.0;
-      }
-    }
-  } else if (name != "whole_body") {
-    throw InvalidArgument("jacobian", quoted(name), "'whole_body', 'arm' or a weight a joint");
-  }
-  return weights;
+bool is_number(const py::object& argument) {
+  return PyFloat_Check(argument.ptr()) != 0 || PyLong_Check(argument.ptr()) != 0 ||
+         (py::hasattr(argument, "ndim") && argument.attr("ndim").cast<int>() == 0);
 }
 
 LinkSpheres read_spheres(const SpheresLike& argument, const std::vector<Obstacle>& obstacles) {
@@ -81,7 +61,10 @@ PathProblem make_problem(const Chain& robot, const PathArguments& arguments, int
                                          kUnlimited, Finite::kNo);
   problem.joint_weights =
       read_positive(arguments.joint_weights, "joint_weights", robot.dof(), 1.0, Finite::kYes);
-  problem.column_weights = read_columns(arguments.jacobian, robot);
+  const JointVector columns = read_column_weights(arguments.jacobian, robot);
+  if (columns.size() > 0) {
+    problem.column_weights = columns;
+  }
   const double count = std::max(1, waypoints);
   problem.dexterity_weight = arguments.dexterity_weight.value_or(1.0 / (count * count));
   if (!(problem.dexterity_weight >= 0.0 && std::isfinite(problem.dexterity_weight))) {
@@ -106,8 +89,7 @@ Heading Heading::read(const OptionalArray& argument, const PathProblem& problem,
   }
   check_omni_base(problem.chain());
   heading.given = true;
-  py::object converted = py::module_::import("numpy").attr("asarray")(argument);
-  if (converted.attr("ndim").cast<int>() == 0) {
+  if (is_number(argument)) {
     const double half = *python::read(argument, "heading", {}, false).data;
     if (!(half >= 0.0)) {
       throw InvalidArgument("heading", text(half), "a number >= 0, rad");

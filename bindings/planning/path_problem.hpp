@@ -6,15 +6,10 @@
 #include "array.hpp"
 #include "model/chain.hpp"
 #include "model/obstacle.hpp"
+#include "optimization/column_weights.hpp"
 #include "thing_kin/planning/path_problem.hpp"
 
 namespace thing_kin::python {
-
-/// "whole_body", "arm" or a weight for each joint's column.
-class ColumnsLike : public py::object {
- public:
-  PYBIND11_OBJECT_DEFAULT(ColumnsLike, object, [](PyObject*) { return 1; })
-};
 
 /// LinkSpheres or None.
 class SpheresLike : public py::object {
@@ -30,7 +25,7 @@ struct PathArguments {
   const SpheresLike& spheres;
   const OptionalArray& max_joint_step;
   const OptionalArray& joint_weights;
-  const ColumnsLike& jacobian;
+  const JacobianColumns& jacobian;
   std::optional<double> dexterity_weight;
 };
 
@@ -61,11 +56,6 @@ double nearest_turn(double angle, double to);
 }  // namespace thing_kin::python
 
 namespace pybind11::detail {
-
-template <>
-struct handle_type_name<thing_kin::python::ColumnsLike> {
-  static constexpr auto name = const_name("str | numpy.typing.ArrayLike");
-};
 
 template <>
 struct handle_type_name<thing_kin::python::SpheresLike> {

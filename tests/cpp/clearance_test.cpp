@@ -196,6 +196,20 @@ TEST(Clearance, PairsThatMayMeet) {
   EXPECT_EQ(pairs({{"frame1", tip, 1.2}, {"tool", tip, 1.0}}), Pairs{});
 }
 
+TEST(Clearance, PairsAcrossASlide) {
+  std::vector<DhRow> rows(3);
+  rows[0].a = 1.0;
+  rows[2].a = 1.0;
+  rows[0].joint = rows[2].joint = JointType::kRevolute;
+  rows[1].joint = JointType::kPrismatic;
+  using Pairs = std::vector<std::pair<int, int>>;
+  const std::vector<LinkSphere> spheres = {{"frame1", {0, 0, 5}, 0.1}, {"tool", {0, 0, 0}, 0.1}};
+  EXPECT_EQ(self_collision_pairs(Chain::from_dh(rows), spheres), (Pairs{{0, 1}}));  // no limits
+  rows[1].limits.lower = -3.0;
+  rows[1].limits.upper = 3.0;
+  EXPECT_EQ(self_collision_pairs(Chain::from_dh(rows), spheres), Pairs{});
+}
+
 TEST(Clearance, WhatDoesNotFit) {
   const Chain arm = robots::ur5();
   EXPECT_THROW(Clearances(arm, {}, {Disc{{0, 0}, 1.0}}), InvalidArgument);
@@ -207,6 +221,12 @@ TEST(Clearance, WhatDoesNotFit) {
   EXPECT_THROW(Clearances(arm, {{{"tool", zero, 1.0}}, {{0, 0}}}, {}), InvalidArgument);
   EXPECT_THROW(spheres_along_links(arm, 0.0, 0.1), InvalidArgument);
   EXPECT_THROW(spheres_along_links(arm, 0.1, 0.0), InvalidArgument);
+  EXPECT_THROW(spheres_along_links(
+                   Chain::from_dh(std::vector<DhRow>{{.a = 1e9},
+                                                     {.joint = JointType::kRevolute},
+                                                     {.a = 1e9, .joint = JointType::kRevolute}}),
+                   0.1, 0.1),
+               InvalidArgument);
   EXPECT_EQ(Clearances(arm, {}, {}).size(), 0);
 }
 

@@ -22,6 +22,7 @@
 #include "thing_kin/linalg/null_space.hpp"
 #include "thing_kin/linalg/pseudoinverse.hpp"
 #include "thing_kin/model/robots.hpp"
+#include "thing_kin/planning/path_follower.hpp"
 
 namespace {
 std::atomic<int> allocations{0};
@@ -304,6 +305,35 @@ TEST(NoHeap, TaskPriorityWithinLimits) {
     EXPECT_GT(step->iterations, 0);
     EXPECT_TRUE(dq.allFinite());
   }
+}
+
+TEST(NoHeap, PathFollower) {
+  const Chain robot = robots::thing();
+  JointVector q(9);
+  q << 0.0, -1.2, 1.4, -0.6, 1.2, 0.0, 0.0, 0.0, 0.0;
+  LinkSpheres shape = spheres_along_links(robot, 0.08, 0.2);
+  shape.pairs = self_collision_pairs(robot, shape.spheres);
+  PathProblem problem(robot, robot.tool(), {Disc{{0.4, 0.3}, 0.28}, Sphere{{1.0, 0.5, 0.8}, 0.2}},
+                      shape);
+  problem.has_base_path = true;
+  problem.base_radius = 0.3;
+  problem.max_joint_step.setConstant(0.2);
+  problem.dexterity_weight = 1e-3;
+  PathFollower follower(std::move(problem), 10, q);
+  PathGoal goal;
+  goal.pose = forward_kinematics(robot, q.data(), robot.tool());
+  bool every = true;
+  EXPECT_EQ(allocations_in([&] {
+              FollowerStep step;
+              for (int k = 0; k < 40; ++k) {
+                goal.pose.translation[0] += 0.02;
+                goal.base[0] += 0.02;
+                every = follower.push(goal) && every;
+                every = (k < 9 || follower.step(step)) && every;
+              }
+            }),
+            0);
+  EXPECT_TRUE(every);
 }
 
 }  // namespace

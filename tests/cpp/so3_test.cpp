@@ -34,6 +34,7 @@ TEST(Series, AgreesWithExtendedPrecision) {
     EXPECT_NEAR(phi<3>(t), static_cast<double>(phi_oracle(3, t)), 4e-16) << t;
     EXPECT_NEAR(phi<4>(t), static_cast<double>(phi_oracle(4, t)), 4e-16) << t;
     EXPECT_NEAR(phi<5>(t), static_cast<double>(phi_oracle(5, t)), 4e-16) << t;
+    EXPECT_NEAR(phi<6>(t), static_cast<double>(phi_oracle(6, t)), 4e-16) << t;
   }
 }
 
@@ -69,6 +70,27 @@ TEST(So3, InverseJacobiansInvert) {
     const Eigen::Matrix3d right = so3_right_jacobian(p) * so3_right_jacobian_inverse(p);
     EXPECT_LT((left - Eigen::Matrix3d::Identity()).norm(), 1e-13);
     EXPECT_LT((right - Eigen::Matrix3d::Identity()).norm(), 1e-13);
+  }
+}
+
+TEST(So3, DerivativeOfTheInverseRightJacobian) {
+  std::mt19937 rng(7);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (const double angle : {0.0, 1e-9, 1e-3, 0.99, 1.01, 2.0, 3.14, 5.0}) {
+    const auto random = [&] { return Eigen::Vector3d(uniform(rng), uniform(rng), uniform(rng)); };
+    const Eigen::Vector3d phi = angle * random().normalized();
+    const Eigen::Vector3d weights = random();
+    const Eigen::Matrix3d N = so3_right_jacobian_inverse_derivative(phi, weights);
+    constexpr double h = 1e-3;
+    for (int k = 0; k < 3; ++k) {
+      const auto at = [&](double step) -> Eigen::RowVector3d {
+        return weights.transpose() *
+               so3_right_jacobian_inverse(phi + step * Eigen::Vector3d::Unit(k));
+      };
+      const Eigen::RowVector3d slope =
+          (8.0 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12.0 * h);
+      EXPECT_LT((slope - N.row(k)).norm(), 1e-10 * (1.0 + N.norm())) << angle;
+    }
   }
 }
 

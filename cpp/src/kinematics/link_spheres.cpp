@@ -30,9 +30,14 @@ void append_link(const Chain& robot, int joint, const Eigen::Vector3d& to, doubl
     return;
   }
   const Chain::Frame& frame = frame_behind(robot, joint);
-  const double count = std::ceil(length / spacing);
-  for (double i = 0.0; i < count; ++i) {
-    const Eigen::Vector3d center = to * (i / count);
+  constexpr double kMost = 1e4;
+  if (!(length / spacing <= kMost)) {
+    throw InvalidArgument("spacing", text(spacing) + " on a link of " + text(length) + " m",
+                          "at most 10000 spheres on a link");
+  }
+  const int count = static_cast<int>(std::ceil(length / spacing));
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3d center = to * (static_cast<double>(i) / count);
     spheres.push_back({frame.name, frame.offset.inverse() * center, radius});
   }
 }

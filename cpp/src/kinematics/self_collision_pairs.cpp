@@ -52,9 +52,11 @@ Interval reach_of(const Chain& robot, int k, const Eigen::Vector3d& from) {
   if (joint.type != JointType::kPrismatic) {
     return {way.norm(), way.norm()};
   }
-  const Interval range = range_of(robot, joint.index);
+  const Interval range{robot.lower()[joint.index], robot.upper()[joint.index]};
   const Eigen::Vector3d axis = joint.fixed.rotation.col(2);
-  const auto length = [&](double q) { return (way + q * axis).norm(); };
+  const auto length = [&](double q) {
+    return std::isfinite(q) ? (way + q * axis).norm() : std::abs(q);
+  };
   const double nearest = std::clamp(-axis.dot(way), range.lower, range.upper);
   return {length(nearest), std::max(length(range.lower), length(range.upper))};
 }
@@ -70,7 +72,7 @@ bool stay_apart(const Chain& robot, const Placed& inner, const Placed& outer) {
     sum += length.upper;
     from.setZero();
   }
-  return longest - sum > inner.radius + outer.radius;
+  return std::isfinite(sum) && longest - sum > inner.radius + outer.radius;
 }
 
 bool may_meet(const Chain& robot, const Placed& one, const Placed& other) {

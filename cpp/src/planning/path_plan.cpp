@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 
 #include "path_by_priority.hpp"
 #include "path_check.hpp"
@@ -111,25 +112,16 @@ class Planner {
     if (!problem_.chain().base_joints()) {
       return {BaseLine{}};
     }
-    BaseLine line;
-    if (problem_.has_base_path) {
-      for (const PathGoal& goal : goals_) {
-        line.emplace_back(goal.base.head<2>());
-      }
-      return lines_past_discs(problem_, line);
-    }
-    std::vector<JointVector> q;
-    if (follow_poses(problem_, goals_, first_, {}, q) >= 0) {
-      return {BaseLine{}};
-    }
-    const auto& base = *problem_.chain().base_joints();
-    for (const JointVector& at : q) {
-      line.emplace_back(at[base[0]], at[base[1]]);
+    const BaseLine line = base_line();
+    if (line.empty()) {
+      return {line};
     }
     std::vector<BaseLine> past = lines_past_discs(problem_, line);
-    if (past.size() == 1) {
+    if (past.size() == 1 && !problem_.has_base_path) {
       past[0].clear();
     }
+    constexpr std::size_t kMostLines = 6;
+    past.resize(std::min(past.size(), kMostLines));
     return past;
   }
 
@@ -137,15 +129,63 @@ class Planner {
     if (!warm_start_.empty() && attempt(warm_start_, -1)) {
       return;
     }
-    constexpr std::size_t kMostLines = 6;
-    const std::vector<BaseLine> candidates = lines();
-    for (std::size_t i = 0; i < std::min(candidates.size(), kMostLines); ++i) {
-      std::vector<JointVector> q;
-      const int lost = follow_poses(problem_, goals_, first_, candidates[i], q);
-      if (attempt(q, lost)) {
+    for (const BaseLine& line : lines()) {
+      if (attempt(line)) {
         return;
       }
     }
+    if (problem_.chain().base_joints() && plan_.failed_constraint != "pose") {
+      try_aside();
+    }
+  }
+
+  // Begins on lines beside the base path, on all sides.
+  void try_aside() {
+    constexpr int kSides = 6;
+    constexpr double kAside = 0.7;    // of base_radius
+    constexpr double kUsually = 0.4;  // m, without one
+    const double away =
+        problem_.base_radius < kUnlimited ? kAside * problem_.base_radius : kUsually;
+    const BaseLine path = base_line();
+    for (int side = 0; side < kSides && !path.empty(); ++side) {
+      const double angle = 2.0 * std::numbers::pi * side / kSides;
+      BaseLine line = path;
+      for (Eigen::Vector2d& place : line) {
+        place += away * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      }
+      if (attempt(lines_past_discs(problem_, line).front())) {
+        return;
+      }
+    }
+  }
+
+  bool attempt(const BaseLine& line) {
+    std::vector<JointVector> q;
+    const int lost = follow_poses(problem_, goals_, first_, line, q);
+    return attempt(q, lost);
+  }
+
+  // The base path, begun where the base stands; or where the hand takes the base; empty if that is
+  // nowhere.
+  BaseLine base_line() const {
+    BaseLine line;
+    const auto& base = *problem_.chain().base_joints();
+    if (problem_.has_base_path) {
+      const Eigen::Vector2d here(first_[base[0]], first_[base[1]]);
+      const Eigen::Vector2d offset = here - goals_[0].base.head<2>();
+      for (std::size_t k = 0; k < goals_.size(); ++k) {
+        const double left = 1.0 - static_cast<double>(k) / static_cast<double>(goals_.size());
+        line.emplace_back(goals_[k].base.head<2>() + left * offset);
+      }
+      return line;
+    }
+    std::vector<JointVector> q;
+    if (follow_poses(problem_, goals_, first_, {}, q) < 0) {
+      for (const JointVector& at : q) {
+        line.emplace_back(at[base[0]], at[base[1]]);
+      }
+    }
+    return line;
   }
 
   // Optimizes from q, of which waypoints from `lost` on (if not -1) are not on their poses; keeps

@@ -106,8 +106,7 @@ class PathSolver {
   Merit evaluate(const double* q) noexcept;
   void evaluate_waypoint(int k, const double* q, Merit& merit) noexcept;
   void evaluate_segment(int k, const double* q, Merit& merit) noexcept;
-  Inner inner_minimum(const double* from, const double* to, int i, double d_from,
-                      double d_to) const noexcept;
+  Inner inner_minimum(int k, const double* from, int i, double d_from, double d_to) const noexcept;
   double step_bound(int j) const noexcept {
     return problem_.max_joint_step[j] - std::min(kMargin, 0.5 * problem_.max_joint_step[j]);
   }
@@ -142,7 +141,8 @@ class PathSolver {
 
   std::vector<double> q_, trial_, dq_, Z_;
   std::vector<Jacobian> J_;
-  std::vector<double> values_;  // clearances at each waypoint of the iterate
+  std::vector<Posture> postures_;  // of what was evaluated last
+  std::vector<double> values_;     // clearances at each waypoint of the iterate
   std::vector<double> trial_values_;
   std::vector<double> gradient_, dexterity_gradient_, dexterity_hessian_;
   std::vector<double> lagrangian_;            // gradient of the Lagrangian by q, n a waypoint

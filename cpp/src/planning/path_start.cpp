@@ -123,7 +123,9 @@ class Follower {
             const JointVector& q, JointVector& dq) {
     constexpr double kDamping = 1e-4;
     const auto& base = *problem_.chain().base_joints();
-    const int rows = problem_.has_base_heading ? 3 : 2;
+    const double theta = q[base[2]] + dq[base[2]];
+    const double turned = std::clamp(theta, goal.heading_lower, goal.heading_upper);
+    const int rows = turned != theta ? 3 : 2;
     SmallMatrix A = J;
     RowQr qr;
     qr.factor(A);
@@ -134,7 +136,7 @@ class Follower {
     for (int i = 0; i < rows; ++i) {
       const int j = base[static_cast<std::size_t>(i)];
       B.row(i) = Z.row(j);
-      way[i] = (i < 2 ? place[i] : goal.base[2]) - q[j] - dq[j];
+      way[i] = (i < 2 ? place[i] : turned) - q[j] - dq[j];
     }
     SmallMatrix gram = B * B.transpose();
     gram.diagonal().array() += kDamping;

@@ -13,9 +13,9 @@ using BaseLine = std::vector<Eigen::Vector2d>;
 /// its left or its right.
 std::vector<BaseLine> lines_past_discs(const PathProblem& problem, const BaseLine& line);
 
-/// Moves q onto a pose, and in what that leaves free the base to its place, if not null (and to the
-/// goal's heading, if the problem has one), limits and obstacles left out. False if the hand does
-/// not get there.
+/// Moves q onto a pose, and in what that leaves free the base to its place and into its heading
+/// window, if the place is not null; limits and obstacles left out. False if the hand does not get
+/// there.
 bool follow_pose(const PathProblem& problem, const PathGoal& goal, const Eigen::Vector2d* place,
                  JointVector& q) noexcept;
 

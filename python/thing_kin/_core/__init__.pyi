@@ -7,10 +7,12 @@ import numpy
 import numpy.random
 import numpy.typing
 import os
+import thing_kin.path_plan
 import typing
 from . import lie
 from . import robots
-__all__: list[str] = ['BaseObstacleTask', 'BaseTask', 'Chain', 'DH', 'Damped', 'DistanceTask', 'Exact', 'FieldOfViewTask', 'IkBatchResult', 'IkResult', 'IkSolutions', 'JointRangeTask', 'LimitedStep', 'MAX_DOF', 'NumericIk', 'OrientationTask', 'PoseTask', 'PositionTask', 'PostureTask', 'SelectivelyDamped', 'SetTask', 'SingularValueFilter', 'Task', 'TaskPriority', 'TaskPriorityStep', 'WheelLimits', 'filter_singular_values', 'has_closed_form', 'ik', 'ik_all', 'lie', 'null_space', 'null_space_projector', 'on_omni_base', 'pinv', 'pose_error', 'robots', 'selectively_damped_step', 'simd_level', 'transform', 'use_simd_level']
+from . import terms
+__all__: list[str] = ['BaseObstacleTask', 'BaseTask', 'Box', 'Capsule', 'Chain', 'DH', 'Damped', 'DerivativeCheck', 'Disc', 'DistanceTask', 'Exact', 'FieldOfViewTask', 'FollowerStep', 'HalfSpace', 'IkBatchResult', 'IkResult', 'IkSolutions', 'JointRangeTask', 'LimitedStep', 'LinkSpheres', 'MAX_DOF', 'NumericIk', 'OrientationTask', 'PathFollower', 'PosePlan', 'PosePlanner', 'PoseTask', 'PositionTask', 'PostureTask', 'Problem', 'ProblemValue', 'SelectivelyDamped', 'SetTask', 'SingularValueFilter', 'Sphere', 'SqpResult', 'SqpTrace', 'Task', 'TaskPriority', 'TaskPriorityStep', 'WheelLimits', 'check_derivatives', 'filter_singular_values', 'has_closed_form', 'ik', 'ik_all', 'lie', 'null_space', 'null_space_projector', 'on_omni_base', 'pinv', 'plan_path', 'plan_pose', 'pose_error', 'robots', 'selectively_damped_step', 'simd_level', 'sqp', 'terms', 'transform', 'use_simd_level']
 class SingularValueFilter:
     """
     Lifts small singular values to at least sigma0, [M17] (4.12).
@@ -1086,6 +1088,438 @@ class Chain:
         """
         Velocity limits, (n,), rad/s or m/s; inf: unlimited.
         """
+class Disc:
+    """
+    Keeps the base's reference point away, [M17] (4.29).
+    
+    As an obstacle it is an upright cylinder without ends: heights do not count, and only the base is
+    concerned, not the arm above it.
+    
+    Parameters
+    ----------
+    center : (2,), m
+    radius : float, m
+    
+    Raises
+    ------
+    ValueError
+        If the radius is not positive, or a number not finite.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> tk.Disc(center=(0.6, 0.6), radius=0.4)
+    Disc(center=(0.6, 0.6), radius=0.4)
+    """
+    def __eq__(self, arg0: Disc) -> bool:
+        ...
+    def __getstate__(self) -> tuple:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, center: numpy.typing.ArrayLike, radius: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
+    def signed_distance(self, points: numpy.typing.ArrayLike) -> float | numpy.typing.NDArray[numpy.float64]:
+        """
+        Distance of points from the surface, m; negative inside.
+        
+        Parameters
+        ----------
+        points : (3,) or (N, 3), m
+        
+        Returns
+        -------
+        float or (N,)
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> tk.Sphere(center=(0, 0, 1), radius=0.25).signed_distance([(0, 0, 1), (0, 3, 5)])
+        array([-0.25,  4.75])
+        """
+    @property
+    def center(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (x, y), m.
+        """
+    @property
+    def radius(self) -> float:
+        """
+        Its radius, m.
+        """
+class Sphere:
+    """
+    A ball that the robot's spheres stay clear of.
+    
+    Parameters
+    ----------
+    center : (3,), m
+    radius : float, m
+    
+    Raises
+    ------
+    ValueError
+        If the radius is not positive, or a number not finite.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> tk.Sphere(center=(1.0, 0.0, 0.8), radius=0.2)
+    Sphere(center=(1.0, 0.0, 0.8), radius=0.2)
+    """
+    def __eq__(self, arg0: Sphere) -> bool:
+        ...
+    def __getstate__(self) -> tuple:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, center: numpy.typing.ArrayLike, radius: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
+    def signed_distance(self, points: numpy.typing.ArrayLike) -> float | numpy.typing.NDArray[numpy.float64]:
+        """
+        Distance of points from the surface, m; negative inside.
+        
+        Parameters
+        ----------
+        points : (3,) or (N, 3), m
+        
+        Returns
+        -------
+        float or (N,)
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> tk.Sphere(center=(0, 0, 1), radius=0.25).signed_distance([(0, 0, 1), (0, 3, 5)])
+        array([-0.25,  4.75])
+        """
+    @property
+    def center(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (x, y, z), m.
+        """
+    @property
+    def radius(self) -> float:
+        """
+        Its radius, m.
+        """
+class Capsule:
+    """
+    All points within a radius of a segment: a post, a pipe.
+    
+    Parameters
+    ----------
+    start, end : (3,), m
+        Of the segment; equal ends make a sphere.
+    radius : float, m
+    
+    Raises
+    ------
+    ValueError
+        If the radius is not positive, or a number not finite.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> post = tk.Capsule(start=(1, 0, 0), end=(1, 0, 2), radius=0.1)
+    >>> post.signed_distance((1.5, 0, 1))
+    0.4
+    """
+    def __eq__(self, arg0: Capsule) -> bool:
+        ...
+    def __getstate__(self) -> tuple:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, start: numpy.typing.ArrayLike, end: numpy.typing.ArrayLike, radius: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
+    def signed_distance(self, points: numpy.typing.ArrayLike) -> float | numpy.typing.NDArray[numpy.float64]:
+        """
+        Distance of points from the surface, m; negative inside.
+        
+        Parameters
+        ----------
+        points : (3,) or (N, 3), m
+        
+        Returns
+        -------
+        float or (N,)
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> tk.Sphere(center=(0, 0, 1), radius=0.25).signed_distance([(0, 0, 1), (0, 3, 5)])
+        array([-0.25,  4.75])
+        """
+    @property
+    def end(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (x, y, z), m.
+        """
+    @property
+    def radius(self) -> float:
+        """
+        Its radius, m.
+        """
+    @property
+    def start(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (x, y, z), m.
+        """
+class Box:
+    """
+    A box of any orientation: a table, a wall.
+    
+    Outside, the distance is that of the nearest point; inside, that of the nearest face.
+    
+    Parameters
+    ----------
+    size : (3,), m
+        Its lengths along its own x, y and z.
+    pose : (4, 4), optional
+        Of its middle; or
+    center : (3,), m, optional
+        and
+    rpy : (3,), rad, optional
+        Roll, pitch and yaw. Default: at the origin, along the axes.
+    
+    Raises
+    ------
+    ValueError
+        If a length is not positive, a number not finite, or the pose no rigid transform.
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> table = tk.Box(size=(1.2, 0.8, 0.04), center=(1.0, 0.0, 0.7), rpy=(0.0, 0.0, np.pi / 2))
+    >>> round(table.signed_distance((1.0, 0.0, 1.0)), 12)
+    0.28
+    """
+    def __eq__(self, arg0: Box) -> bool:
+        ...
+    def __getstate__(self) -> tuple:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, *, size: numpy.typing.ArrayLike, pose: numpy.typing.ArrayLike | None = None, center: numpy.typing.ArrayLike | None = None, rpy: numpy.typing.ArrayLike | None = None) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
+    def signed_distance(self, points: numpy.typing.ArrayLike) -> float | numpy.typing.NDArray[numpy.float64]:
+        """
+        Distance of points from the surface, m; negative inside.
+        
+        Parameters
+        ----------
+        points : (3,) or (N, 3), m
+        
+        Returns
+        -------
+        float or (N,)
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> tk.Sphere(center=(0, 0, 1), radius=0.25).signed_distance([(0, 0, 1), (0, 3, 5)])
+        array([-0.25,  4.75])
+        """
+    @property
+    def pose(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Of its middle, (4, 4).
+        """
+    @property
+    def size(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Lengths along its own axes, m.
+        """
+class HalfSpace:
+    """
+    All that is behind a plane: a floor, a wall.
+    
+    Parameters
+    ----------
+    normal : (3,)
+        Points out of it, to where the robot may be. Any length but zero.
+    offset : float, m, optional
+        How far from the origin the plane is, along the normal; or
+    point : (3,), m, optional
+        A point of the plane.
+    
+    Raises
+    ------
+    ValueError
+        If the normal is zero, a number not finite, or not one of offset and point is given.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> floor = tk.HalfSpace(normal=(0, 0, 1), offset=0.0)
+    >>> floor.signed_distance((0.3, 0.2, 0.5))
+    0.5
+    """
+    def __eq__(self, arg0: HalfSpace) -> bool:
+        ...
+    def __getstate__(self) -> tuple:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, normal: numpy.typing.ArrayLike, *, offset: typing.SupportsFloat | typing.SupportsIndex | None = None, point: numpy.typing.ArrayLike | None = None) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
+    def signed_distance(self, points: numpy.typing.ArrayLike) -> float | numpy.typing.NDArray[numpy.float64]:
+        """
+        Distance of points from the surface, m; negative inside.
+        
+        Parameters
+        ----------
+        points : (3,) or (N, 3), m
+        
+        Returns
+        -------
+        float or (N,)
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> tk.Sphere(center=(0, 0, 1), radius=0.25).signed_distance([(0, 0, 1), (0, 3, 5)])
+        array([-0.25,  4.75])
+        """
+    @property
+    def normal(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Of unit length.
+        """
+    @property
+    def offset(self) -> float:
+        """
+        Of the plane along the normal, m.
+        """
+class LinkSpheres:
+    """
+    A robot's shape as balls fixed to its frames, for clearances.
+    
+    Immutable. The frames are kept by name: the same shape serves the robot with other limits or a
+    further tool.
+    
+    Parameters
+    ----------
+    robot : Chain
+    spheres : sequence of (frame, center, radius)
+        A frame's name or index, coordinates in it (3,), m, and m.
+    pairs : sequence of (int, int), optional
+        Which spheres must not meet each other, by their places in `spheres`. Default: all, but of one
+        link or neighboring links; of those that cannot meet, by the triangle inequality over the links
+        between them; and of those that overlap in a quarter or more of 256 postures spread within the
+        limits, too near each other along the chain for balls to tell.
+    
+    Raises
+    ------
+    ValueError
+        If a frame does not exist, a radius is not positive, an index is none, or a number not finite.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> robot = tk.robots.ur10()
+    >>> shape = tk.LinkSpheres(robot, [("tool", (0, 0, 0.05), 0.1), ("upper_arm", (0.3, 0, 0), 0.1)])
+    >>> shape.pairs
+    ((0, 1),)
+    """
+    @staticmethod
+    def along_links(robot: Chain, radius: typing.SupportsFloat | typing.SupportsIndex, spacing: typing.SupportsFloat | typing.SupportsIndex | None = None) -> LinkSpheres:
+        """
+        Balls of one radius along the arm, from each joint's frame straight to the next.
+        
+        The last link ends at the tool. What a base carries below the arm's first joint is left out: that
+        is a Disc's concern, or that of further spheres. Neighboring centers are at most `spacing` apart;
+        the default, one radius, leaves notches of 13 % of it between the balls.
+        
+        Parameters
+        ----------
+        robot : Chain
+        radius : float, m
+        spacing : float, m, optional
+            At least 0.001; default: the radius.
+        
+        Returns
+        -------
+        LinkSpheres
+            With the default pairs.
+        
+        Raises
+        ------
+        ValueError
+            If the radius is not positive, or the spacing too small.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> tk.LinkSpheres.along_links(tk.robots.ur10(), radius=0.08, spacing=0.15)
+        LinkSpheres(15 spheres, 33 pairs)
+        """
+    def __eq__(self, arg0: LinkSpheres) -> bool:
+        ...
+    def __getstate__(self) -> tuple[tuple, tuple]:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, robot: Chain, spheres: typing.Any, *, pairs: typing.Any = None) -> None:
+        ...
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
+    def centers(self, robot: Chain, q: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Where the spheres' centers are.
+        
+        Parameters
+        ----------
+        robot : Chain
+        q : (n,) or (N, n), rad and m
+        
+        Returns
+        -------
+        (S, 3) or (N, S, 3), m
+        
+        Examples
+        --------
+        >>> import numpy as np, thing_kin as tk
+        >>> robot = tk.robots.ur10()
+        >>> shape = tk.LinkSpheres(robot, [("tool", (0, 0, 0), 0.1)])
+        >>> np.allclose(shape.centers(robot, np.zeros(6))[0], robot.fk(np.zeros(6))[:3, 3])
+        True
+        """
+    @property
+    def pairs(self) -> tuple:
+        """
+        Pairs of spheres that must not meet.
+        """
+    @property
+    def spheres(self) -> tuple:
+        """
+        (frame, (x, y, z), radius) each, m.
+        """
 class Exact:
     """
     Moore-Penrose inverse, [M17] (4.6), (4.9), for TaskPriority.
@@ -2054,6 +2488,820 @@ class NumericIk:
         """
         The chain.
         """
+class PosePlan:
+    """
+    What plan_pose found, and why not more.
+    
+    q is always finite and within joint limits, also without success: then it is the best found.
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> robot = tk.robots.thing()
+    >>> plan = tk.plan_pose(robot, tk.transform(xyz=(9.0, 0.0, 1.0)), base_goal=(0, 0), base_radius=0.5)
+    >>> plan.success, plan.status
+    (False, 'infeasible')
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def constraint_violation(self) -> float:
+        """
+        The largest of all constraints, m or rad.
+        """
+    @property
+    def iterations(self) -> int:
+        """
+        Quadratic programs of all descents.
+        """
+    @property
+    def message(self) -> str:
+        """
+        In a sentence: what is violated most, and by how much.
+        """
+    @property
+    def objective(self) -> float:
+        """
+        sqrt(kappa/M) at q, [M17] (4.33).
+        """
+    @property
+    def position_error(self) -> float:
+        """
+        Distance of the hand from the target, m.
+        """
+    @property
+    def q(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (n,), rad and m.
+        """
+    @property
+    def restarts(self) -> int:
+        """
+        Descents beside the seed's.
+        """
+    @property
+    def rotation_error(self) -> float:
+        """
+        Angle between the hand and the target, rad.
+        """
+    @property
+    def status(self) -> str:
+        """
+        How it ended.
+        
+        'converged': feasible and stationary. 'infeasible': every descent ended with constraints
+        violated. 'budget': iterations ran out.
+        """
+    @property
+    def success(self) -> bool:
+        """
+        Whether q is a local optimum that keeps all constraints, by forward kinematics of q.
+        """
+    @property
+    def time(self) -> float:
+        """
+        s, inside the solver.
+        """
+class PosePlanner:
+    """
+    Finds dexterous whole-body poses, [M17] (4.34).
+    
+    Least sqrt(kappa/M) over the configurations that have the hand at the target, the base within a disc
+    about its goal and in a window of heading, the joints within limits, and that keep clear of
+    obstacles. The pose's six equations are eliminated: each step is one in the null space of the
+    Jacobian, of a quadratic program with the exact second derivatives of log sqrt(kappa/M), in a trust
+    region; then the hand is brought back. Where the seed's descent fails, others begin at solutions of
+    inverse kinematics for base placements within the disc.
+    
+    Whole-body dexterity is blind to singularities of the arm, since the base fills the lost direction:
+    jacobian='arm' sees them.
+    
+    Immutable: any number of threads may share one.
+    
+    Parameters
+    ----------
+    robot : Chain
+        At least six joints.
+    base_goal : (2,), optional
+        Where the base should be, m.
+    base_radius : float > 0, optional
+        How far from there it may be, m.
+    heading : (2,), optional
+        Least and greatest theta, rad, taken as given: theta is continuous, a window may cross pi.
+    obstacles : sequence of Disc, Sphere, Capsule, Box, HalfSpace
+        A Disc keeps the base's reference point out, (4.29); the others the balls of `spheres`.
+    spheres : LinkSpheres, optional
+        The robot's shape; its pairs must not meet. Needed for obstacles other than discs.
+    jacobian : str or (n,)
+        Whose dexterity counts: 'whole_body', 'arm' (without the base's columns), or weights of the
+        columns, 0 to 1e6.
+    frame : str or int, optional
+        The frame that is to reach the target; default the last.
+    search : str
+        'local': the optimum that the seed's descent leads to. 'global': the best of all arm branches
+        and base placements, by descents from the best of many samples.
+    max_iterations : int
+        Of one descent.
+    max_restarts : int
+        Of a local search, where the seed's descent fails.
+    samples, descents : int
+        Of a global search: base placements, and how many of the best begin a descent.
+    tolerance : float > 0
+        A constraint violated by less is kept, m and rad.
+    rng : int
+        Which base placements are tried.
+    
+    Raises
+    ------
+    ValueError
+        If an option does not fit the robot.
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> robot = tk.robots.thing()
+    >>> planner = tk.PosePlanner(robot, base_goal=(0.6, 0.0), base_radius=0.3)
+    >>> seed = np.array([0.0, -1.2, 1.4, -0.6, 1.2, 0.0, 0.0, 0.0, 0.0])
+    >>> plan = planner.solve(tk.transform(xyz=(1.2, -0.9, 0.9), rpy=(0.0, np.pi / 2, 0.0)), seed)
+    >>> plan.success, bool(np.hypot(*(robot.base_pose(plan.q)[:2] - (0.6, 0.0))) <= 0.3)
+    (True, True)
+    """
+    def __init__(self, robot: Chain, *, base_goal: numpy.typing.ArrayLike | None = None, base_radius: typing.SupportsFloat | typing.SupportsIndex | None = None, heading: numpy.typing.ArrayLike | None = None, obstacles: collections.abc.Sequence[Disc | Sphere | Capsule | Box | HalfSpace] = (), spheres: LinkSpheres | None = None, jacobian: str | numpy.typing.ArrayLike = 'whole_body', frame: str | int | None = None, search: str = 'local', max_iterations: typing.SupportsInt | typing.SupportsIndex = 60, max_restarts: typing.SupportsInt | typing.SupportsIndex = 100, samples: typing.SupportsInt | typing.SupportsIndex = 96, descents: typing.SupportsInt | typing.SupportsIndex = 24, tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-08, rng: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def solve(self, target: numpy.typing.ArrayLike, seed: numpy.typing.ArrayLike | None = None) -> typing.Any:
+        """
+        Solves for one target.
+        
+        Parameters
+        ----------
+        target : (4, 4)
+            In the root.
+        seed : (n,), optional
+            Where to begin; brought into the limits first. Default zeros.
+        
+        Returns
+        -------
+        PosePlan
+        
+        Raises
+        ------
+        ValueError
+            If a shape does not fit, a number is not finite or the pose is not rigid.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> robot = tk.robots.thing()
+        >>> tk.PosePlanner(robot, jacobian="arm").solve(tk.transform(xyz=(1.0, 0.5, 0.9))).success
+        True
+        """
+    @property
+    def robot(self) -> typing.Any:
+        """
+        The robot.
+        """
+class ProblemValue:
+    """
+    A problem at one x.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> problem = tk.Problem(n=2, upper=1.0)
+    >>> problem.minimize(tk.terms.Function(lambda x: x @ x, lambda x: 2 * x))
+    >>> at = problem.evaluate((3.0, 0.0))
+    >>> at.objective, at.violation, at.violations
+    (9.0, 2.0, {'bound of x[0]': 2.0})
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def gradient(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (n,), of the objective.
+        """
+    @property
+    def jacobian(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (m, n), of the constraints.
+        """
+    @property
+    def objective(self) -> float:
+        """
+        f(x).
+        """
+    @property
+    def values(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (m,), of the constraints, in the order of constraint_names.
+        """
+    @property
+    def violation(self) -> float:
+        """
+        The largest of a constraint or bound.
+        """
+    @property
+    def violations(self) -> dict:
+        """
+        Constraints and bounds that do not hold, by name: by how much; the worst first.
+        """
+class Problem:
+    """
+    An optimization problem, [M17] (4.19).
+    
+    Minimize a sum of terms, where other terms are bounded and the variables are. For a robot the
+    variables are its joints, bounded by its limits; otherwise there are n of them.
+    
+    Bounds that cross, such as a lower one above the upper, are kept: a solver says that it is
+    infeasible.
+    
+    Parameters
+    ----------
+    robot : Chain, optional
+    n : int, optional
+        How many variables, without a robot.
+    lower, upper : float or (n,), optional
+        Bounds of the variables, without a robot; default none.
+    
+    Raises
+    ------
+    ValueError
+        If there is neither a robot nor n, or both; for NaN and wrong shapes.
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> problem = tk.Problem(n=2, lower=0.0)
+    >>> problem.minimize(tk.terms.Function(lambda x: x @ x, lambda x: 2 * x, name="size"))
+    >>> problem.equal(tk.terms.Function(lambda x: x.sum(), np.ones_like, name="sum"), 1.0)
+    >>> problem
+    Problem(2 variables, 1 objective, 1 constraint)
+    >>> tk.sqp(problem, (1.0, 0.0)).x.round(6)
+    array([0.5, 0.5])
+    """
+    def __init__(self, robot: typing.Any = None, *, n: typing.SupportsInt | typing.SupportsIndex | None = None, lower: typing.Any = None, upper: typing.Any = None) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def at_least(self, term: terms.Term, lower: numpy.typing.ArrayLike, *, name: str = '') -> None:
+        """
+        Adds a constraint: the term is at least `lower`.
+        
+        Parameters
+        ----------
+        term : terms.Term
+        lower : float or (m,)
+        name : str
+            For messages; default the term's.
+        
+        Raises
+        ------
+        ValueError
+            If the term or the bound does not fit.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> problem = tk.Problem(n=1)
+        >>> problem.at_least(tk.terms.Function(lambda x: x**2, lambda x: 2 * x, name="square"), 4.0)
+        >>> problem.evaluate([1.0]).violations
+        {'square': 3.0}
+        """
+    def at_most(self, term: terms.Term, upper: numpy.typing.ArrayLike, *, name: str = '') -> None:
+        """
+        Adds a constraint: the term is at most `upper`.
+        
+        Parameters
+        ----------
+        term : terms.Term
+        upper : float or (m,)
+        name : str
+            For messages; default the term's.
+        
+        Raises
+        ------
+        ValueError
+            If the term or the bound does not fit.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> problem = tk.Problem(n=1)
+        >>> problem.at_most(tk.terms.Function(lambda x: x**2, lambda x: 2 * x, name="square"), 4.0)
+        >>> problem.evaluate([3.0]).violations
+        {'square': 5.0}
+        """
+    def between(self, term: terms.Term, lower: numpy.typing.ArrayLike, upper: numpy.typing.ArrayLike, *, name: str = '') -> None:
+        """
+        Adds a constraint: the term is between two bounds.
+        
+        Parameters
+        ----------
+        term : terms.Term
+        lower, upper : float or (m,)
+        name : str
+            For messages; default the term's.
+        
+        Raises
+        ------
+        ValueError
+            If the term or a bound does not fit.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> problem = tk.Problem(n=1)
+        >>> problem.between(tk.terms.Function(lambda x: x**2, lambda x: 2 * x, name="square"), 1.0, 4.0)
+        >>> problem.evaluate([0.0]).violations
+        {'square': 1.0}
+        """
+    def bound(self, variable: typing.Any, lower: numpy.typing.ArrayLike = ..., upper: numpy.typing.ArrayLike = ...) -> None:
+        """
+        Bounds a variable anew, in place of what bounded it before.
+        
+        Parameters
+        ----------
+        variable : str or int
+            A joint by name, or its place.
+        lower, upper : float, rad or m
+            -inf and inf: none.
+        
+        Raises
+        ------
+        ValueError
+            If there is no such variable, or a bound is NaN.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> problem = tk.Problem(tk.robots.thing())
+        >>> problem.bound("theta", -0.5, 0.5)
+        >>> float(problem.upper[problem.names.index("theta")])
+        0.5
+        """
+    def equal(self, term: terms.Term, target: numpy.typing.ArrayLike = 0.0, *, name: str = '') -> None:
+        """
+        Adds a constraint: the term equals the target.
+        
+        Parameters
+        ----------
+        term : terms.Term
+        target : float or (m,)
+        name : str
+            For messages; default the term's.
+        
+        Raises
+        ------
+        ValueError
+            If the term or the target does not fit.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> problem = tk.Problem(n=1)
+        >>> problem.equal(tk.terms.Function(lambda x: x**2, lambda x: 2 * x), 4.0, name="square")
+        >>> problem.evaluate([3.0]).violations
+        {'square': 5.0}
+        """
+    def evaluate(self, x: numpy.typing.ArrayLike) -> ProblemValue:
+        """
+        Objective and constraints at x.
+        
+        Parameters
+        ----------
+        x : (n,)
+        
+        Returns
+        -------
+        ProblemValue
+        
+        Raises
+        ------
+        ValueError
+            If x does not fit, or a term does not exist there.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> problem = tk.Problem(n=2, upper=1.0)
+        >>> problem.evaluate((3.0, 0.5)).violations
+        {'bound of x[0]': 2.0}
+        """
+    def minimize(self, term: terms.Term, weight: typing.SupportsFloat | typing.SupportsIndex = 1.0) -> None:
+        """
+        Adds to the objective: the sum of the entries.
+        
+        Parameters
+        ----------
+        term : terms.Term
+        weight : float
+            A negative one maximizes.
+        
+        Raises
+        ------
+        ValueError
+            If the term does not fit, or the weight is not finite.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> problem = tk.Problem(n=1)
+        >>> problem.minimize(tk.terms.Function(lambda x: x**2, lambda x: 2 * x), weight=3.0)
+        >>> problem.evaluate([2.0]).objective
+        12.0
+        """
+    def minimize_squares(self, term: terms.Term, weight: typing.SupportsFloat | typing.SupportsIndex = 1.0) -> None:
+        """
+        Adds to the objective: the sum of the entries' squares.
+        
+        Parameters
+        ----------
+        term : terms.Term
+        weight : float >= 0
+        
+        Raises
+        ------
+        ValueError
+            If the term does not fit, or the weight is negative or not finite.
+        
+        Examples
+        --------
+        >>> import numpy as np, thing_kin as tk
+        >>> problem = tk.Problem(n=2)
+        >>> problem.minimize_squares(tk.terms.Function(lambda x: x - 1, lambda x: np.eye(2), size=2))
+        >>> problem.evaluate([2.0, 3.0]).objective
+        5.0
+        """
+    @property
+    def constraint_lower(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (m,): their lower bounds.
+        """
+    @property
+    def constraint_names(self) -> list[str]:
+        """
+        Names of the m numbers that are bounded.
+        """
+    @property
+    def constraint_upper(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (m,): their upper bounds.
+        """
+    @property
+    def lower(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (n,): lower bounds of the variables.
+        """
+    @property
+    def n(self) -> int:
+        """
+        How many variables.
+        """
+    @property
+    def names(self) -> list[str]:
+        """
+        Names of the variables.
+        """
+    @property
+    def upper(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (n,): upper bounds of the variables.
+        """
+class DerivativeCheck:
+    """
+    How far a term's derivatives are from differences.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> wrong = tk.terms.Function(lambda x: x[0] ** 2, lambda x: [x[0]])
+    >>> check = tk.check_derivatives(wrong, [3.0])
+    >>> check.success, round(check.jacobian_difference, 6)
+    (False, 0.5)
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def hessian_difference(self) -> float:
+        """
+        The same of the Hessians.
+        """
+    @property
+    def hessian_entry(self) -> tuple[int, int, int]:
+        """
+        Where: (entry of the value, variable, variable).
+        """
+    @property
+    def jacobian_difference(self) -> float:
+        """
+        Largest difference, relative to the larger of 1 and the largest entry.
+        """
+    @property
+    def jacobian_entry(self) -> tuple[int, int]:
+        """
+        Where: (entry of the value, variable).
+        """
+    @property
+    def message(self) -> str:
+        """
+        All of it in a sentence.
+        """
+    @property
+    def success(self) -> bool:
+        """
+        Whether both differences are at most 1e-5.
+        """
+class _ConvexMinimizer:
+    pass
+class SqpTrace:
+    """
+    What tk.sqp did: an entry a convexified problem.
+    
+    See viz.plot_trace.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> problem = tk.Problem(n=1)
+    >>> problem.minimize(tk.terms.Function(lambda x: x[0] ** 4, lambda x: 4 * x**3))
+    >>> trace = tk.sqp(problem, [1.0]).trace
+    >>> len(trace) == len(trace.merit), bool(trace.objective[0] > trace.objective[-1])
+    (True, True)
+    """
+    def __len__(self) -> int:
+        ...
+    @property
+    def accepted(self) -> numpy.typing.NDArray[numpy.bool]:
+        """
+        (N,) bool: whether the step was taken.
+        """
+    @property
+    def merit(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N,): f + penalty sum |violation| where the step was tried from; of the violation alone while that is restored.
+        """
+    @property
+    def objective(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N,).
+        """
+    @property
+    def penalty(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N,): mu.
+        """
+    @property
+    def radius(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N,): of the trust region, in each variable.
+        """
+    @property
+    def violation(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (N,): the largest of a constraint.
+        """
+class SqpResult:
+    """
+    What tk.sqp found, judged anew at its x.
+    
+    x is always finite and within bounds that do not cross. Violation and residual are computed from the
+    problem at x, not by the solver.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> problem = tk.Problem(n=1, upper=1.0)
+    >>> problem.equal(tk.terms.Function(lambda x: x, lambda x: [[1.0]], name="place"), 3.0)
+    >>> result = tk.sqp(problem, [0.0])
+    >>> result.success, result.status, result.message
+    (False, 'infeasible', 'infeasible: place by 2')
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def bound_multipliers(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (n,), of the variables' bounds.
+        """
+    @property
+    def constraint_violation(self) -> float:
+        """
+        The largest of a constraint or bound.
+        """
+    @property
+    def iterations(self) -> int:
+        """
+        Convexified problems solved.
+        """
+    @property
+    def kkt_residual(self) -> float:
+        """
+        How far x is from stationary: the largest entry of the Lagrangian's gradient or of multiplier times slack, relative to the largest of 1, the objective's gradient and the constraints' pulls.
+        """
+    @property
+    def message(self) -> str:
+        """
+        The status in a sentence: what is violated.
+        """
+    @property
+    def multipliers(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (m,), of the constraints, in the order of Problem.constraint_names; > 0: at the upper bound, < 0: at the lower.
+        """
+    @property
+    def objective(self) -> float:
+        """
+        f(x).
+        """
+    @property
+    def q(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (n,): x by its name for a robot, rad and m.
+        """
+    @property
+    def status(self) -> str:
+        """
+        How it ended.
+        
+        'converged': feasible and stationary, both within tolerance. 'infeasible': constraints are violated,
+        and no step lessens the sum of the violations. 'budget': iterations or time ran out, or no step makes
+        progress though x is not stationary; x is the best point found, feasible or not.
+        """
+    @property
+    def success(self) -> bool:
+        """
+        Whether status is 'converged'.
+        """
+    @property
+    def time(self) -> float:
+        """
+        Seconds.
+        """
+    @property
+    def trace(self) -> SqpTrace:
+        """
+        SqpTrace: an entry an iteration.
+        """
+    @property
+    def x(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (n,).
+        """
+class FollowerStep:
+    """
+    One step of a PathFollower.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def position_error(self) -> float:
+        """
+        m, by forward kinematics.
+        """
+    @property
+    def q(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (n,), rad and m: where to go next.
+        """
+    @property
+    def rotation_error(self) -> float:
+        """
+        rad.
+        """
+    @property
+    def settled(self) -> bool:
+        """
+        Whether the window was at its optimum.
+        """
+    @property
+    def violation(self) -> float:
+        """
+        Largest of the constraints of q and of the way to it, m or rad.
+        """
+class PathFollower:
+    """
+    plan_path for poses that come in one by one.
+    
+    A window of waypoints is kept optimized with one iteration a step, each warm from the one before;
+    the window's first configuration goes out. The objective and the constraints are plan_path's. In a
+    step's C++ nothing allocates.
+    
+    Parameters
+    ----------
+    robot : Chain
+    seed : (n,), rad and m
+        Where the robot stands.
+    window : int
+        How many waypoints to look ahead.
+    base : str
+        What comes with each pose of the base: nothing ('free'), 'xy' or 'xytheta'.
+    frame, base_radius, heading, obstacles, spheres, max_joint_step, joint_weights, jacobian
+        See plan_path.
+    dexterity_weight : float, optional
+        Default 1/window^2.
+    
+    Raises
+    ------
+    ValueError
+        If an argument does not fit the robot.
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> robot = tk.robots.thing()
+    >>> seed = np.array([0.0, -1.2, 1.4, -0.6, 1.2, 0.0, 0.0, 0.0, 0.0])
+    >>> follower = tk.PathFollower(robot, seed, window=10)
+    >>> pose = robot.fk(seed)
+    >>> for _ in range(10):  # fill the window, then give and take one by one
+    ...     pose[0, 3] += 0.02
+    ...     assert follower.push(pose)
+    >>> pose[0, 3] += 0.02
+    >>> step = follower.step()
+    >>> follower.push(pose), step.position_error < 1e-9
+    (True, True)
+    """
+    def __init__(self, robot: Chain, seed: numpy.typing.ArrayLike, *, window: typing.SupportsInt | typing.SupportsIndex = 20, base: str = 'free', frame: str | int | None = None, base_radius: typing.SupportsFloat | typing.SupportsIndex | None = None, heading: numpy.typing.ArrayLike | None = None, obstacles: collections.abc.Sequence[Disc | Sphere | Capsule | Box | HalfSpace] = (), spheres: LinkSpheres | None = None, max_joint_step: numpy.typing.ArrayLike | None = None, joint_weights: numpy.typing.ArrayLike | None = None, jacobian: str | numpy.typing.ArrayLike = 'whole_body', dexterity_weight: typing.SupportsFloat | typing.SupportsIndex | None = None) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def push(self, pose: numpy.typing.ArrayLike, base: numpy.typing.ArrayLike | None = None) -> bool:
+        """
+        Appends a waypoint to the window.
+        
+        Parameters
+        ----------
+        pose : (4, 4)
+        base : (2,) or (3,), optional
+            x, y (m) and theta (rad) of the base path there, as the follower was told.
+        
+        Returns
+        -------
+        bool
+            False, and nothing changes, if the window is full or the pose can't be reached from the one
+            before it.
+        
+        Raises
+        ------
+        ValueError
+            If a shape does not fit or a number is not finite.
+        """
+    def step(self) -> FollowerStep | None:
+        """
+        One iteration on the window; its first waypoint goes out, and is where the robot
+        stands from now on.
+        
+        Returns
+        -------
+        FollowerStep or None
+            None if the window is empty.
+        """
+    @property
+    def pending(self) -> int:
+        """
+        How many waypoints are in the window.
+        """
+    @property
+    def robot(self) -> typing.Any:
+        """
+        The robot.
+        """
+    @property
+    def window(self) -> int:
+        """
+        How many it has room for.
+        """
+def check_derivatives(term: terms.Term, x: numpy.typing.ArrayLike, robot: typing.Any = None) -> DerivativeCheck:
+    """
+    Compares a term's derivatives with differences.
+    
+    The Jacobian with central differences of the value, the Hessian with central differences of the
+    Jacobian: a function's whose Hessian is not given differs by rounding alone.
+    
+    Parameters
+    ----------
+    term : terms.Term
+    x : (n,)
+    robot : Chain, optional
+        For terms of a robot.
+    
+    Returns
+    -------
+    DerivativeCheck
+    
+    Raises
+    ------
+    ValueError
+        If x does not fit, or the term does not exist there or next to it.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> term = tk.terms.Function(lambda x: x[0] ** 2, lambda x: [2 * x[0]])
+    >>> tk.check_derivatives(term, [3.0]).success
+    True
+    """
 def filter_singular_values(J: numpy.typing.ArrayLike, sigma0: typing.SupportsFloat | typing.SupportsIndex, nu: typing.SupportsFloat | typing.SupportsIndex) -> numpy.typing.NDArray[numpy.float64]:
     """
     The matrix with its singular values lifted, [M17] (4.13).
@@ -2303,6 +3551,128 @@ def pinv(J: numpy.typing.ArrayLike, *, damping: typing.Any = None, singular_valu
     array([[0.4, 0. ],
            [0. , 0. ]])
     """
+def plan_path(robot: Chain, poses: numpy.typing.ArrayLike, *, seed: numpy.typing.ArrayLike, frame: str | int | None = None, base_path: numpy.typing.ArrayLike | None = None, base_radius: typing.SupportsFloat | typing.SupportsIndex | None = None, heading: numpy.typing.ArrayLike | None = None, obstacles: collections.abc.Sequence[Disc | Sphere | Capsule | Box | HalfSpace] = (), spheres: LinkSpheres | None = None, method: str = 'sqp', max_joint_step: numpy.typing.ArrayLike | None = None, joint_weights: numpy.typing.ArrayLike | None = None, jacobian: str | numpy.typing.ArrayLike = 'whole_body', dexterity_weight: typing.SupportsFloat | typing.SupportsIndex | None = None, warm_start: numpy.typing.ArrayLike | thing_kin.path_plan.PathPlan | None = None, max_iterations: typing.SupportsInt | typing.SupportsIndex = 200, position_tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-06, rotation_tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-06, constraint_tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-06) -> thing_kin.path_plan.PathPlan:
+    """
+    Configurations that take a frame along a path of poses, the whole body at once.
+    
+    method='sqp' minimizes
+    
+        sum_k |W (q[k+1] - q[k])|^2 / 2  +  w sum_k log sqrt(kappa/M)(q[k])
+    
+    with the joint weights W, the dexterity weight w and sqrt(kappa/M) of (4.33), subject to every pose,
+    the base within base_radius of the base path, theta within its window, obstacles kept clear of at
+    the waypoints and everywhere on the straight lines in joint space between them, joint limits and
+    max_joint_step. It is one sequential quadratic program over all waypoints in the null spaces of
+    their Jacobians, with exact second derivatives; time grows with the number of waypoints, not its
+    square. A local optimum, begun on each side of the Discs that the base path runs through until one
+    succeeds.
+    
+    method='task_priority' goes from pose to pose, hand first, base second, [M17] (4.18), each iterated
+    until it rests, within the joints' limits; all else is only checked.
+    
+    q[0] is the seed where that solves the first pose; else it is near the solution nearest to the seed,
+    and the way from the seed to it counts like a step.
+    
+    Never raises because there is no such path: the plan says which waypoint can't be followed first,
+    what fails there, and by how much.
+    
+    Parameters
+    ----------
+    robot : Chain
+        Of at least six joints.
+    poses : (N, 4, 4)
+        Of the frame, in the root.
+    seed : (n,), rad and m
+        Where the robot stands.
+    frame : str or int, optional
+        Default the last.
+    base_path : (N, 2) or (N, 3), optional
+        x, y (m) and theta (rad) of the base. Without base_radius it guides only.
+    base_radius : float > 0, optional
+        m, how far from the base path the base may be.
+    heading : float or (2,), optional
+        rad: how far theta may be from the base path's, or (lower, upper). theta goes on beyond pi: the
+        window is meant up to whole turns and may cross +-pi.
+    obstacles : list of Disc, Sphere, Capsule, Box, HalfSpace
+        A Disc keeps the base away, the others the spheres.
+    spheres : LinkSpheres, optional
+        The robot's shape, with the pairs that must not meet.
+    method : str
+        'sqp' or 'task_priority'.
+    max_joint_step : float or (n,), optional
+        rad and m, between neighboring waypoints.
+    joint_weights : float or (n,), optional
+        W; default ones.
+    jacobian : str or (n,)
+        Whose dexterity: 'whole_body'; 'arm', which the base's columns do not help; or a weight for each
+        joint's column. The whole body's is blind to singular arms.
+    dexterity_weight : float, optional
+        w; default 1/N^2, with which the balance does not depend on how finely a path is sampled.
+    warm_start : (N, n) or PathPlan, optional
+        Where to begin: the plan of a similar path.
+    max_iterations : int
+        Of each attempt ('sqp') or each waypoint ('task_priority').
+    position_tolerance, rotation_tolerance, constraint_tolerance : float
+        m, rad and both: what is missed by more is no success. 'sqp' ends far below.
+    
+    Returns
+    -------
+    PathPlan
+    
+    Raises
+    ------
+    ValueError
+        If an argument does not fit the robot or another one, or is not finite.
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> robot = tk.robots.thing()
+    >>> seed = np.array([0.0, -1.2, 1.4, -0.6, 1.2, 0.0, 0.0, 0.0, 0.0])
+    >>> poses = np.repeat(robot.fk(seed)[None], 20, axis=0)
+    >>> poses[:, 0, 3] += np.linspace(0.0, 2.0, 20)
+    >>> path = tk.plan_path(robot, poses, seed=seed, obstacles=[tk.Disc((1.0, 0.3), 0.5)])
+    >>> path.success, path.q.shape
+    (True, (20, 9))
+    """
+def plan_pose(robot: Chain, target: numpy.typing.ArrayLike, seed: numpy.typing.ArrayLike | None = None, *, base_goal: numpy.typing.ArrayLike | None = None, base_radius: typing.SupportsFloat | typing.SupportsIndex | None = None, heading: numpy.typing.ArrayLike | None = None, obstacles: collections.abc.Sequence[Disc | Sphere | Capsule | Box | HalfSpace] = (), spheres: LinkSpheres | None = None, jacobian: str | numpy.typing.ArrayLike = 'whole_body', frame: str | int | None = None, search: str = 'local', max_iterations: typing.SupportsInt | typing.SupportsIndex = 60, max_restarts: typing.SupportsInt | typing.SupportsIndex = 100, samples: typing.SupportsInt | typing.SupportsIndex = 96, descents: typing.SupportsInt | typing.SupportsIndex = 24, tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-08, rng: typing.SupportsInt | typing.SupportsIndex = 0) -> typing.Any:
+    """
+    The whole-body pose of least sqrt(kappa/M) for a target, [M17] (4.34).
+    
+    Never raises because there is none: the result says why.
+    
+    Parameters
+    ----------
+    robot : Chain
+        At least six joints.
+    target : (4, 4)
+        Pose of the frame, in the root.
+    seed : (n,), optional
+        Where to begin; brought into the limits first. Default zeros.
+    base_goal, base_radius, heading, obstacles, spheres, jacobian, frame, search, max_iterations, max_restarts, samples, descents, tolerance, rng
+        See PosePlanner.
+    
+    Returns
+    -------
+    PosePlan
+    
+    Raises
+    ------
+    ValueError
+        If an argument does not fit the robot.
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> robot = tk.robots.thing()
+    >>> T_goal = tk.transform(xyz=(1.2, -0.9, 0.9), rpy=(0.0, np.pi / 2, 0.0))
+    >>> seed = np.array([0.0, -1.2, 1.4, -0.6, 1.2, 0.0, 0.0, 0.0, 0.0])
+    >>> wall = tk.Disc(center=(0.6, 0.6), radius=0.4)
+    >>> plan = tk.plan_pose(robot, T_goal, seed=seed, base_goal=(0.6, 0.0), base_radius=0.3,
+    ...                     heading=(-0.8, 0.8), obstacles=[wall])
+    >>> plan.success, bool(np.allclose(robot.fk(plan.q), T_goal, atol=1e-8))
+    (True, True)
+    """
 def pose_error(T: numpy.typing.ArrayLike, T_goal: numpy.typing.ArrayLike, *, frame: str = 'world_aligned', method: str = 'log') -> numpy.typing.NDArray[numpy.float64]:
     """
     What is missing from one pose to another, [linear, angular], [M17] (3.16)-(3.18), (4.28).
@@ -2380,6 +3750,77 @@ def simd_level() -> str:
     >>> import thing_kin as tk
     >>> tk.simd_level() in ("baseline", "avx2", "avx512")
     True
+    """
+def sqp(problem: Problem, x0: numpy.typing.ArrayLike, *, minimizer: str = 'augmented_lagrangian', c: typing.SupportsFloat | typing.SupportsIndex = 0.1, tau_plus: typing.SupportsFloat | typing.SupportsIndex = 2.0, tau_minus: typing.SupportsFloat | typing.SupportsIndex = 0.25, k: typing.SupportsFloat | typing.SupportsIndex = 10.0, mu0: typing.SupportsFloat | typing.SupportsIndex = 10.0, mu_max: typing.SupportsFloat | typing.SupportsIndex = 1000000000.0, delta0: typing.SupportsFloat | typing.SupportsIndex = 1.0, delta_min: typing.SupportsFloat | typing.SupportsIndex = 1e-12, delta_max: typing.SupportsFloat | typing.SupportsIndex = 10000.0, step_tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-12, improvement_tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-15, constraint_tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-08, optimality_tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-06, second_order_correction: bool = True, max_iterations: typing.SupportsInt | typing.SupportsIndex = 500, deadline: typing.SupportsFloat | typing.SupportsIndex | None = None) -> typing.Any:
+    """
+    Sequential convex optimization, [M17] Algorithm 2.
+    
+    Three loops: the innermost minimizes a convex model of objective and constraints in a trust region,
+    and accepts the step if the exact merit f + mu sum |violation| improves as the model predicts; the
+    second makes the model anew; the outermost raises the penalty mu until the constraints hold. Where
+    that does not help, the violation alone is minimized. The model has the exact second derivatives of
+    the Lagrangian, made convex.
+    
+    It finds a local optimum. The result is a function of problem, x0 and options alone, unless there is
+    a deadline.
+    
+    Parameters
+    ----------
+    problem : Problem
+    x0 : (n,)
+        Where to begin; brought into the bounds first.
+    minimizer : str
+        Of the convex model. 'augmented_lagrangian': through Ceres' Levenberg-Marquardt, as [M17] 5.3.2.
+        'smoothed': the same, of penalties rounded over 1e-9. 'bfgs': an augmented Lagrangian through
+        Ceres' BFGS line search. 'qp': a quadratic program with elastic constraints by an interior point
+        method of this library, several times faster.
+    c : float
+        Least ratio of actual to predicted improvement for a step to be taken.
+    tau_plus, tau_minus : float
+        Growth of the trust region where a step is taken, its shrinking where not.
+    k, mu0, mu_max : float
+        Growth of the penalty, the first and the largest.
+    delta0, delta_min, delta_max : float
+        Radius of the trust region in each variable: first, least, largest.
+    step_tolerance : float
+        A step no entry of which is larger counts as none.
+    improvement_tolerance : float
+        A predicted improvement of the merit that counts as none, relative to it and to 1.
+    constraint_tolerance : float
+        Of each constraint, in its own unit. Bounds of the variables always hold.
+    optimality_tolerance : float
+        Of SqpResult.kkt_residual.
+    second_order_correction : bool
+        Whether a step that is refused is tried again with the constraints' values at its end. Without
+        it, curved constraints can keep the last steps from being full (the Maratos effect).
+    max_iterations : int
+        Convexified problems solved, in all loops together.
+    deadline : float, s, optional
+    
+    Returns
+    -------
+    SqpResult
+    
+    Raises
+    ------
+    ValueError
+        If x0 or an option does not fit; if a function of a term returns what it should not.
+    ImportError
+        If the minimizer needs Ceres and there is none.
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> rosenbrock = tk.terms.Function(
+    ...     lambda x: [10 * (x[1] - x[0] ** 2), 1 - x[0]],
+    ...     lambda x: [[-20 * x[0], 10], [-1, 0]], size=2)
+    >>> disc = tk.terms.Function(lambda x: x @ x, lambda x: 2 * x, lambda x: 2 * np.eye(2))
+    >>> problem = tk.Problem(n=2)
+    >>> problem.minimize_squares(rosenbrock)
+    >>> problem.at_most(disc, 1.0)
+    >>> result = tk.sqp(problem, (-1.0, 0.5))
+    >>> result.success, result.x.round(4)
+    (True, array([0.7864, 0.6177]))
     """
 def transform(xyz: numpy.typing.ArrayLike = (0.0, 0.0, 0.0), rpy: typing.Any = None, quaternion: typing.Any = None) -> numpy.typing.NDArray[numpy.float64]:
     """

@@ -61,7 +61,8 @@ class PathProblem {
     int joints;
     Eigen::Vector3d point;
   };
-  double turning_radius(int sphere, const double* q, const double* dq) const noexcept;
+  void add_levers(const Subject& subject);
+  double slides(const double* q, const double* dq) const noexcept;
 
   const Chain* chain_;
   int frame_;
@@ -70,6 +71,7 @@ class PathProblem {
   Clearances clearances_;
   std::vector<Center> centers_;
   std::vector<Subject> subjects_;
+  std::vector<double> levers_;  // a joint and a clearance
 };
 
 }  // namespace thing_kin
