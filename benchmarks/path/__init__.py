@@ -4,7 +4,7 @@
 
 subject to every pose, the base within 0.3 m of its path and outside a disc, joint limits and steps
 of at most 20/N a joint. plan_path also keeps the straight lines between waypoints out of the disc,
-the peer their middles.
+the peer seven points of each.
 """
 
 from dataclasses import dataclass

@@ -15,6 +15,7 @@ from path import RADIUS, Course
 from pose.solvers.casadi_ipopt import pose_function
 
 ITERATIONS = 1000
+BETWEEN = 8  # parts of each line between waypoints, whose ends are kept out of the disc
 
 
 def start(course: Course) -> Any:
@@ -88,12 +89,14 @@ class CasadiIpopt:
         objective = ca.sumsqr(steps) / 2 + course.dexterity_weight * self.dexterity(x)
         base = q[6:8, :]
         to_path = base - ca.DM(course.base_path[:, :2].T)
-        middle = (base[:, 1:] + base[:, :-1]) / 2
+        parts = [k / BETWEEN for k in range(1, BETWEEN)]
+        between = [(1 - u) * base[:, :-1] + u * base[:, 1:] for u in parts]
         center = ca.DM(list(course.obstacle.center))
         goals = ca.DM(np.concatenate([T.T.reshape(-1, 1) for T in course.poses], axis=1))
         residual = pose_function(ca).map(n)(q, goals)
-        keep_out = [ca.sum1((points - center) ** 2).T for points in (base, middle)]
-        g = [ca.vec(residual), ca.vec(steps), ca.sum1(to_path**2).T, *keep_out]
+        outside = ca.horzcat(base, *between)
+        keep_out = ca.sum1((outside - center) ** 2).T
+        g = [ca.vec(residual), ca.vec(steps), ca.sum1(to_path**2).T, keep_out]
         self.sizes = [int(part.numel()) for part in g]
         options = {
             "print_time": False,
@@ -113,8 +116,8 @@ class CasadiIpopt:
         )
         lower[0] = upper[0] = course.seed
         keep, away = course.obstacle.radius**2, np.inf
-        low = (0.0, -course.max_step, 0.0, keep, keep)
-        high = (0.0, course.max_step, RADIUS**2, away, away)
+        low = (0.0, -course.max_step, 0.0, keep)
+        high = (0.0, course.max_step, RADIUS**2, away)
         found = self.solver(
             x0=self.start.ravel(),
             lbx=lower.ravel(),
