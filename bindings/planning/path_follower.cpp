@@ -53,7 +53,20 @@ Base read_base(const std::string& name, const Chain& robot) {
 
 void bind_path_follower(py::module_& m) {
   const auto none = py::none();
-  py::class_<FollowerStep>(m, "FollowerStep", "One step of a PathFollower.")
+  py::class_<FollowerStep>(m, "FollowerStep", R"(One step of a PathFollower.
+
+Examples
+--------
+>>> import numpy as np, thing_kin as tk
+>>> robot = tk.robots.thing()
+>>> seed = np.array([0.0, -1.2, 1.4, -0.6, 1.2, 0.0, 0.0, 0.0, 0.0])
+>>> follower = tk.PathFollower(robot, seed, window=10)
+>>> follower.push(robot.fk(seed))
+True
+>>> step = follower.step()
+>>> step.q.shape, step.position_error < 1e-9
+((9,), True)
+)")
       .def_property_readonly(
           "q", [](const FollowerStep& s) { return Array(s.q.size(), s.q.data()); },
           "(n,), rad and m: where to go next.")
@@ -159,6 +172,15 @@ Raises
 ------
 ValueError
     If a shape does not fit or a number is not finite.
+
+Examples
+--------
+>>> import numpy as np, thing_kin as tk
+>>> robot = tk.robots.thing()
+>>> seed = np.array([0.0, -1.2, 1.4, -0.6, 1.2, 0.0, 0.0, 0.0, 0.0])
+>>> follower = tk.PathFollower(robot, seed, window=10)
+>>> follower.push(robot.fk(seed)), follower.pending
+(True, 1)
 )")
       .def(
           "step",
@@ -167,13 +189,25 @@ ValueError
             const bool moved = self.follower.step(step);
             return moved ? std::optional(step) : std::nullopt;
           },
-          R"(One iteration on the window; its first waypoint goes out, and is where the robot
-stands from now on.
+          R"(One iteration on the window, whose first waypoint goes out.
+
+That is where the robot stands from now on.
 
 Returns
 -------
 FollowerStep or None
     None if the window is empty.
+
+Examples
+--------
+>>> import numpy as np, thing_kin as tk
+>>> robot = tk.robots.thing()
+>>> seed = np.array([0.0, -1.2, 1.4, -0.6, 1.2, 0.0, 0.0, 0.0, 0.0])
+>>> follower = tk.PathFollower(robot, seed, window=10)
+>>> follower.step() is None
+True
+>>> follower.push(robot.fk(seed)), bool(np.allclose(follower.step().q, seed, atol=1e-6))
+(True, True)
 )")
       .def_property_readonly(
           "robot", [](const BoundFollower& self) { return self.robot; }, "The robot.")

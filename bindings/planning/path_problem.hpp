@@ -6,7 +6,7 @@
 #include "array.hpp"
 #include "model/chain.hpp"
 #include "model/obstacle.hpp"
-#include "optimization/column_weights.hpp"
+#include "column_weights.hpp"
 #include "thing_kin/planning/path_problem.hpp"
 
 namespace thing_kin::python {

@@ -19,6 +19,15 @@ class PathPlan:
 
     `success` is the word of that check, not of the solver: poses by forward kinematics, every
     constraint at every waypoint, obstacles on the straight lines in joint space between them.
+
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> arm = tk.robots.ur10()
+    >>> q = np.array([0.0, -1.0, 1.2, -0.5, 1.0, 0.0])
+    >>> path = tk.plan_path(arm, arm.fk(np.stack([q, q + 0.02])), seed=q)
+    >>> path.success, path.q.shape, len(path)
+    (True, (2, 6), 2)
     """
 
     robot: Chain = field(repr=False)
@@ -56,6 +65,15 @@ class PathPlan:
         ------
         ValueError
             If the path was not a success.
+
+        Examples
+        --------
+        >>> import numpy as np, thing_kin as tk
+        >>> arm = tk.robots.ur10()
+        >>> q = np.array([0.0, -1.0, 1.2, -0.5, 1.0, 0.0])
+        >>> path = tk.plan_path(arm, arm.fk(np.stack([q, q + 0.1, q + 0.2])), seed=q)
+        >>> bool(path.timed().duration > 0.0)
+        True
         """
         from thing_kin.trajectory import timed
 

@@ -1,4 +1,4 @@
-#include "optimization/column_weights.hpp"
+#include "column_weights.hpp"
 
 #include "thing_kin/core/error.hpp"
 
