@@ -25,9 +25,10 @@ struct Spectrum {
         u[i][i] = 1.0;
       }
     }
-    for (int k = 0; k < 4; ++k) {
-      reflect(A, k);
-    }
+    reflect<0>(A);
+    reflect<1>(A);
+    reflect<2>(A);
+    reflect<3>(A);
     for (int i = 0; i < 6; ++i) {
       lambda[i] = A[i][i];
     }
@@ -41,21 +42,34 @@ struct Spectrum {
   static constexpr double kEps = 0x1p-52;
   static constexpr int kMostSteps = 120;  // three an eigenvalue are usual
 
-  // Makes column k zero below the entry beside the diagonal.
-  void reflect(Six A[6], int k) {
-    Six v{};
-    for (int i = k + 1; i < 6; ++i) {
-      v[i] = A[k][i];
-    }
-    const double rest = sum_of(v * v) - v[k + 1] * v[k + 1];
-    if (!(rest > 0.0)) {
+  // Makes column k zero below the entry beside the diagonal. The index is known to the compiler, so
+  // that columns stay in registers.
+  template <int k>
+  [[gnu::always_inline]] inline void reflect(Six A[6]) {
+    constexpr Six kBelow{
+        0.0, k < 1 ? 1.0 : 0.0, k < 2 ? 1.0 : 0.0, k < 3 ? 1.0 : 0.0, k < 4 ? 1.0 : 0.0, 1.0, 0.0,
+        0.0};
+    constexpr Six kBeside{0.0,
+                          k == 0 ? 1.0 : 0.0,
+                          k == 1 ? 1.0 : 0.0,
+                          k == 2 ? 1.0 : 0.0,
+                          k == 3 ? 1.0 : 0.0,
+                          0.0,
+                          0.0,
+                          0.0};
+    Six v = A[k] * kBelow;
+    const double first = v[k + 1];
+    const double square = sum_of(v * v);
+    if (!(square - first * first > 0.0)) {
       return;
     }
-    const double norm = __builtin_sqrt(rest + v[k + 1] * v[k + 1]);
-    v[k + 1] += v[k + 1] > 0.0 ? norm : -norm;
-    const double beta = 2.0 / (rest + v[k + 1] * v[k + 1]);
+    const double norm = __builtin_sqrt(square);
+    const double shift = first > 0.0 ? norm : -norm;
+    v += shift * kBeside;
+    const double beta = 1.0 / (square + shift * first);
     Six p{};
     Six along{};
+#pragma GCC unroll 6
     for (int j = k + 1; j < 6; ++j) {
       p += v[j] * A[j];
       if (kVectors) {
@@ -63,11 +77,13 @@ struct Spectrum {
       }
     }
     p *= beta;
+    along *= beta;
     const Six w = p - (0.5 * beta * sum_of(p * v)) * v;
+#pragma GCC unroll 6
     for (int j = k; j < 6; ++j) {
       A[j] -= w[j] * v + v[j] * w;
       if (kVectors) {
-        u[j] -= (beta * v[j]) * along;
+        u[j] -= v[j] * along;
       }
     }
   }
