@@ -221,12 +221,10 @@ TEST(Clearance, WhatDoesNotFit) {
   EXPECT_THROW(Clearances(arm, {{{"tool", zero, 1.0}}, {{0, 0}}}, {}), InvalidArgument);
   EXPECT_THROW(spheres_along_links(arm, 0.0, 0.1), InvalidArgument);
   EXPECT_THROW(spheres_along_links(arm, 0.1, 0.0), InvalidArgument);
-  EXPECT_THROW(spheres_along_links(
-                   Chain::from_dh(std::vector<DhRow>{{.a = 1e9},
-                                                     {.joint = JointType::kRevolute},
-                                                     {.a = 1e9, .joint = JointType::kRevolute}}),
-                   0.1, 0.1),
-               InvalidArgument);
+  std::vector<DhRow> far(2);
+  far[0].joint = far[1].joint = JointType::kRevolute;
+  far[0].a = 1e9;
+  EXPECT_THROW(spheres_along_links(Chain::from_dh(far), 0.1, 0.1), InvalidArgument);
   EXPECT_EQ(Clearances(arm, {}, {}).size(), 0);
 }
 
