@@ -7,7 +7,14 @@ namespace thing_kin::python {
 JointVector read_column_weights(const JacobianColumns& argument, const Chain& chain) {
   if (!py::isinstance<py::str>(argument)) {
     const Batch numbers = read(argument, "jacobian", {chain.dof()}, false);
-    return vector_at(numbers, 0);
+    JointVector weights = vector_at(numbers, 0);
+    constexpr double kLargest = 1e6;  // a product of twelve does not overflow
+    for (const double weight : weights) {
+      if (!(weight >= 0.0 && weight <= kLargest)) {
+        throw InvalidArgument("jacobian", text(weight), "weights from 0 to 1e6");
+      }
+    }
+    return weights;
   }
   const auto name = argument.cast<std::string>();
   if (name == "whole_body") {

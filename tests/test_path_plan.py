@@ -318,6 +318,7 @@ def test_a_six_joint_arm_has_no_choice() -> None:
         ({"max_joint_step": np.nan}, "max_joint_step"),
         ({"joint_weights": -1.0}, "joint_weights"),
         ({"jacobian": "leg"}, "jacobian"),
+        ({"jacobian": [-1.0] * 9}, "jacobian"),
         ({"dexterity_weight": -1.0}, "dexterity_weight"),
         ({"max_iterations": 0}, "max_iterations"),
         ({"position_tolerance": 0.0}, "position_tolerance"),

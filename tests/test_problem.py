@@ -34,7 +34,7 @@ def test_objectives_add_up() -> None:
 
 
 def test_the_hessian_is_exact() -> None:
-    """One Newton step squares the error; Gauss-Newton, with residuals of 1, would only lessen it."""
+    """One Newton step squares the error; Gauss-Newton would only lessen it."""
     problem = tk.Problem(n=2)
     problem.minimize_squares(
         term(lambda a, b: [exp(a) - 3, a + 1 - b, exp(b - a) + 1], size=3), weight=0.3

@@ -20,8 +20,8 @@ constexpr double kLeastRadius = 1e-7;
 
 // A step this short, or of so little gain, with exact second derivatives leaves an error of its
 // square.
-constexpr double kLastStep = 1e-4;
-constexpr double kLastGain = 1e-8;
+constexpr double kLastStep = 3e-4;
+constexpr double kLastGain = 1e-7;
 
 // A step without them is one of many, each a fraction of the one before.
 constexpr double kLeastGain = 1e-12;

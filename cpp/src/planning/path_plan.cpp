@@ -200,7 +200,10 @@ class Planner {
     }
     judge(plan);
     plan.iterations += plan_.iterations;
-    if (plan_.q.empty() || plan.success || plan.failed_waypoint > plan_.failed_waypoint) {
+    // What fails with all poses met says more than a start that lost the hand later on.
+    const bool later = plan.failed_waypoint > plan_.failed_waypoint;
+    if (plan_.q.empty() || plan.success || (lost < 0) > met_ || ((lost < 0) == met_ && later)) {
+      met_ = lost < 0;
       plan_ = std::move(plan);
     } else {
       plan_.iterations = plan.iterations;
@@ -316,6 +319,7 @@ class Planner {
   const PathOptions& options_;
   JointVector first_;
   bool held_ = false;
+  bool met_ = false;  // all poses, by the plan's start
   PathPlan plan_;
 };
 

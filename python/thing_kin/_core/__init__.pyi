@@ -3287,7 +3287,7 @@ class PathFollower:
         >>> follower = tk.PathFollower(robot, seed, window=10)
         >>> follower.step() is None
         True
-        >>> follower.push(robot.fk(seed)), bool(np.allclose(follower.step().q, seed, atol=1e-6))
+        >>> follower.push(robot.fk(seed)), follower.step().position_error < 1e-9
         (True, True)
         """
     @property
