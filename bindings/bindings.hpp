@@ -54,12 +54,12 @@ void bind_numeric_ik(py::module_& m);
 
 void bind_pose_plan(py::module_& m);
 void bind_term_recipe(py::module_& terms);
-void bind_terms_pose(py::module_& terms);
-void bind_terms_orientation_cone(py::module_& terms);
-void bind_terms_base(py::module_& terms);
-void bind_terms_clearance(py::module_& terms);
-void bind_terms_dexterity(py::module_& terms);
-void bind_terms_joints(py::module_& terms);
+void bind_terms_pose(py::module_& m);
+void bind_terms_orientation_cone(py::module_& m);
+void bind_terms_base(py::module_& m);
+void bind_terms_clearance(py::module_& m);
+void bind_terms_dexterity(py::module_& m);
+void bind_terms_joints(py::module_& m);
 void bind_function_term(py::module_& terms);
 void bind_problem(py::module_& m);
 void bind_derivative_check(py::module_& m);

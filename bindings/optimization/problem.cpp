@@ -53,7 +53,7 @@ int read_variable(const Problem& problem, const py::object& variable) {
   if (py::isinstance<py::str>(variable)) {
     return problem.variable(variable.cast<std::string>());
   }
-  const py::object index = py::reinterpret_steal<py::object>(PyNumber_Index(variable.ptr()));
+  const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(variable.ptr()));
   if (!index) {
     PyErr_Clear();
     throw InvalidArgument("variable", py::str(py::type::of(variable).attr("__name__")),
@@ -471,6 +471,7 @@ Examples
           "constraint_names",
           [](const Problem& self) {
             std::vector<std::string> names;
+            names.reserve(static_cast<std::size_t>(self.rows()));
             for (int row = 0; row < self.rows(); ++row) {
               names.push_back(self.row_name(row));
             }

@@ -155,7 +155,7 @@ progress though x is not stationary; x is the best point found, feasible or not.
 
 void bind_sqp(py::module_& m) {
   // What thing_kin._ceres makes, to be passed on.
-  py::class_<ConvexMinimizer, Minimizer>(m, "_ConvexMinimizer");
+  const py::class_<ConvexMinimizer, Minimizer> opaque(m, "_ConvexMinimizer");
   bind_trace(m);
   bind_result(m);
   const SqpOptions defaults;

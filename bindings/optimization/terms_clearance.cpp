@@ -11,6 +11,7 @@ namespace {
 std::vector<std::string> rows(const terms::Clearance& term, const Chain& robot) {
   const Clearances clearances(robot, term.spheres(), term.obstacles());
   std::vector<std::string> texts;
+  texts.reserve(static_cast<std::size_t>(clearances.size()));
   for (int i = 0; i < clearances.size(); ++i) {
     texts.push_back(clearances.describe(i));
   }

@@ -34,10 +34,10 @@ Dense random_program(test::Generator& rng, StagewiseQp& qp, int stages, int rows
   }
   qp.reset(stages);
   for (int k = 0; k < stages; ++k) {
-    Eigen::Map<Eigen::MatrixXd>(qp.H(k), m, m) = dense.H.block(k * m, k * m, m, m);
+    Eigen::Map<Eigen::MatrixXd>(qp.block(k), m, m) = dense.H.block(k * m, k * m, m, m);
     Eigen::Map<Eigen::VectorXd>(qp.g(k), m) = dense.g.segment(k * m, m);
     if (k + 1 < stages) {
-      Eigen::Map<Eigen::MatrixXd>(qp.E(k), m, m) = dense.H.block(k * m, (k + 1) * m, m, m);
+      Eigen::Map<Eigen::MatrixXd>(qp.coupling(k), m, m) = dense.H.block(k * m, (k + 1) * m, m, m);
     }
   }
   for (int i = 0; i < rows; ++i) {
@@ -102,7 +102,7 @@ TEST(StagewiseQp, KnowsAnIndefiniteProgram) {
   StagewiseQp qp(3);
   random_program(rng, qp, 8, 10);
   EXPECT_TRUE(qp.is_convex(0.0));
-  qp.H(5)[4] -= 30.0;
+  qp.block(5)[4] -= 30.0;
   EXPECT_FALSE(qp.is_convex(0.0));
   EXPECT_TRUE(qp.is_convex(40.0));
 }

@@ -13,8 +13,8 @@ namespace {
 // A side counts as kept within this fraction of the numbers it is made of.
 constexpr double kKept = 64 * kEpsilon;
 
-// Where more sides meet than there are variables, rounding makes them miss each other: what can't be
-// kept within this fraction is infeasible, what can counts as kept.
+// Where more sides meet than there are variables, rounding makes them miss each other: what can't
+// be kept within this fraction is infeasible, what can counts as kept.
 constexpr double kMissed = 1e-10;
 
 // What is left of a form beside the active ones is rounding below this fraction.
@@ -219,7 +219,8 @@ void ConvexQp::append(const Side& side, double multiplier) noexcept {
 void ConvexQp::drop(int i) noexcept {
   const Eigen::Index k = x_.size();
   for (int c = i; c + 1 < active_; ++c) {
-    sides_[static_cast<std::size_t>(c)] = sides_[static_cast<std::size_t>(c + 1)];
+    const auto at = static_cast<std::size_t>(c);
+    sides_[at] = sides_[at + 1];
     u_[c] = u_[c + 1];
     for (int j = 0; j <= c + 1; ++j) {
       R_(j, c) = R_(j, c + 1);

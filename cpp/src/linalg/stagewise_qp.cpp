@@ -110,13 +110,13 @@ double StagewiseQp::dual_residual() noexcept {
   for (int k = 0; k < stages_; ++k) {
     double* r = rd_.data() + k * m;
     std::copy_n(g(k), m, r);
-    add_product<M>(m, H(k), p(k), r);
+    add_product<M>(m, block(k), p(k), r);
     add_scaled<M>(m, damping_, p(k), r);
     if (k + 1 < stages_) {
-      add_product<M>(m, E(k), p(k + 1), r);
+      add_product<M>(m, coupling(k), p(k + 1), r);
     }
     if (k > 0) {
-      add_transposed_product<M>(m, E(k - 1), p(k - 1), r);
+      add_transposed_product<M>(m, coupling(k - 1), p(k - 1), r);
     }
   }
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -255,11 +255,11 @@ void StagewiseQp::finish() noexcept {
   }
   for (int k = 0; k < stages_; ++k) {
     double Hp[kMaxDof] = {};
-    add_product<M>(m, H(k), p(k), Hp);
+    add_product<M>(m, block(k), p(k), Hp);
     change += dot<M>(m, g(k), p(k)) + 0.5 * dot<M>(m, Hp, p(k));
     if (k + 1 < stages_) {
       double Ep[kMaxDof] = {};
-      add_product<M>(m, E(k), p(k + 1), Ep);
+      add_product<M>(m, coupling(k), p(k + 1), Ep);
       change += dot<M>(m, Ep, p(k));
     }
   }

@@ -146,8 +146,9 @@ class LeastSquares {
     ceres::Problem problem(ownership);
     Residuals residuals(smooth, L, p);
     std::vector<double*> blocks;
-    for (Index j = 0; j < q.size(); ++j) {
-      blocks.push_back(&q[j]);
+    blocks.reserve(static_cast<std::size_t>(q.size()));
+    for (double& x : q) {
+      blocks.push_back(&x);
     }
     problem.AddResidualBlock(&residuals, nullptr, blocks);
     bool is_free = false;
@@ -321,7 +322,8 @@ ConvexStep smoothed(const ConvexModel& model, const LeastSquares& minimizer) {
   ConvexStep step{VectorXd::Zero(model.variables()), VectorXd::Zero(model.rows()), 0};
   SmoothModel smooth(model);
   const double proximity = 30.0 * proximity_of(model, scales);  // stiff: less of a way per step
-  for (double width = 0.1; width > 0.5 * kAccuracy; width *= 0.1) {
+  double width = 0.1;
+  while (width > 0.5 * kAccuracy) {
     smooth.stiffness().setConstant(model.penalty / width);
     for (int i = 0; i < 20; ++i) {
       smooth.set_proximity(proximity, step.p);
@@ -333,6 +335,7 @@ ConvexStep smoothed(const ConvexModel& model, const LeastSquares& minimizer) {
         break;
       }
     }
+    width *= 0.1;
   }
   step.multipliers = smooth.pull(smooth.distance(step.p));
   return step;

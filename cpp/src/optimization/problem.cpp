@@ -86,7 +86,7 @@ void Problem::minimize_squares(std::shared_ptr<const Term> term, double weight) 
   objectives_.push_back({std::move(term), weight, true});
 }
 
-void Problem::constrain(std::shared_ptr<const Term> term, const VectorView& lower,
+void Problem::constrain(const std::shared_ptr<const Term>& term, const VectorView& lower,
                         const VectorView& upper, const std::string& name) {
   check(*term);
   Constraint constraint{term, spread(lower, term->size(), "lower"),

@@ -30,8 +30,8 @@ class BaseTerm : public RobotTerm {
 
 class BaseDistanceTerm : public BaseTerm {
  public:
-  BaseDistanceTerm(std::shared_ptr<const Chain> robot, const Eigen::Vector2d& center)
-      : BaseTerm(std::move(robot)), center_(center) {}
+  BaseDistanceTerm(std::shared_ptr<const Chain> robot, Eigen::Vector2d center)
+      : BaseTerm(std::move(robot)), center_(std::move(center)) {}
 
   std::string name() const override { return "base_distance"; }
   int size() const override { return 1; }
@@ -70,8 +70,8 @@ class BaseDistanceTerm : public BaseTerm {
 
 class BasePositionTerm : public BaseTerm {
  public:
-  BasePositionTerm(std::shared_ptr<const Chain> robot, const Eigen::Vector2d& target)
-      : BaseTerm(std::move(robot)), target_(target) {}
+  BasePositionTerm(std::shared_ptr<const Chain> robot, Eigen::Vector2d target)
+      : BaseTerm(std::move(robot)), target_(std::move(target)) {}
 
   std::string name() const override { return "base_position"; }
   int size() const override { return 2; }

@@ -35,7 +35,7 @@ struct Angle {
   double sine;
   double cosine;
 
-  Angle(const Eigen::Vector3d& turned, const Eigen::Vector3d& d) : a(turned), cosine(a.dot(d)) {
+  Angle(Eigen::Vector3d turned, const Eigen::Vector3d& d) : a(std::move(turned)), cosine(a.dot(d)) {
     const Eigen::Vector3d turn = a.cross(d);
     sine = turn.norm();
     // Nearer to a tip than this the direction of the way down is rounding.

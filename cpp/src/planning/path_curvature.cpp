@@ -59,7 +59,7 @@ void PathSolver::linearize_waypoint(int k) noexcept {
 // H, g and E of the joints' steps, and g of the dexterity.
 void PathSolver::add_objective() noexcept {
   for (int k = fixed_; k < count(); ++k) {
-    const ConstMatrix Zk(Z(k), n_, m_);
+    const ConstMatrix Zk(basis(k), n_, m_);
     Vector(qp_.g(stage(k)), m_) =
         Zk.transpose().lazyProduct(ConstVector(gradient_.data() + k * n_, n_));
     const int sides = (k > 0 || has_origin_ ? 1 : 0) + (k + 1 < count() ? 1 : 0);
@@ -68,19 +68,19 @@ void PathSolver::add_objective() noexcept {
         double same = 0.0;
         double next = 0.0;
         for (int j = 0; j < n_; ++j) {
-          const double left = square_weights_[j] * Z(k)[a * n_ + j];
-          same += left * Z(k)[b * n_ + j];
-          next += k + 1 < count() ? left * Z(k + 1)[b * n_ + j] : 0.0;
+          const double left = square_weights_[j] * basis(k)[a * n_ + j];
+          same += left * basis(k)[b * n_ + j];
+          next += k + 1 < count() ? left * basis(k + 1)[b * n_ + j] : 0.0;
         }
-        qp_.H(stage(k))[b * m_ + a] = sides * same;
-        qp_.E(stage(k))[b * m_ + a] = -next;
+        qp_.block(stage(k))[b * m_ + a] = sides * same;
+        qp_.coupling(stage(k))[b * m_ + a] = -next;
       }
     }
   }
 }
 
 void PathSolver::project(int k, const SmallMatrix& H, double* out, bool convex) const noexcept {
-  const ConstMatrix Zk(Z(k), n_, m_);
+  const ConstMatrix Zk(basis(k), n_, m_);
   SmallMatrix HZ(n_, m_);
   HZ.noalias() = H.lazyProduct(Zk);
   SmallMatrix block(m_, m_);
@@ -126,7 +126,7 @@ void PathSolver::add_curvature(bool convex) noexcept {
       problem_.clearances().add_hessian(posture, q(k), points_[next].i, -points_[next].z, H);
     }
     if (k >= fixed_) {
-      project(k, H, qp_.H(stage(k)), convex);
+      project(k, H, qp_.block(stage(k)), convex);
     }
     for (; next < points_.size() && points_[next].k == k; ++next) {
       add_point_curvature(points_[next], convex);
@@ -154,13 +154,13 @@ void PathSolver::add_point_curvature(const PointRow& point, bool convex) noexcep
   SmallVector slopes[2];
   for (int side = 0; side < 2; ++side) {
     const double part = side == 0 ? 1.0 - point.t : point.t;
-    const ConstMatrix Zs(Z(k + side), n_, m_);
+    const ConstMatrix Zs(basis(k + side), n_, m_);
     const JointVector ds = part * bend + (side == 0 ? -1.0 : 1.0) * gradient;
     slopes[side] = Zs.transpose().lazyProduct(ds);
     if (k + side < fixed_) {
       continue;
     }
-    Matrix H(qp_.H(stage(k + side)), m_, m_);
+    Matrix H(qp_.block(stage(k + side)), m_, m_);
     H.noalias() += share * slopes[side].lazyProduct(slopes[side].transpose());
     if (!convex) {
       CZ.noalias() = C.lazyProduct(Zs);
@@ -168,11 +168,11 @@ void PathSolver::add_point_curvature(const PointRow& point, bool convex) noexcep
     }
   }
   if (k >= fixed_) {  // CZ is that of the second side
-    Matrix E(qp_.E(stage(k)), m_, m_);
+    Matrix E(qp_.coupling(stage(k)), m_, m_);
     E.noalias() += share * slopes[0].lazyProduct(slopes[1].transpose());
     if (!convex) {
       E.noalias() +=
-          point.t * (1.0 - point.t) * ConstMatrix(Z(k), n_, m_).transpose().lazyProduct(CZ);
+          point.t * (1.0 - point.t) * ConstMatrix(basis(k), n_, m_).transpose().lazyProduct(CZ);
     }
   }
 }

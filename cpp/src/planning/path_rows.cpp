@@ -14,7 +14,7 @@ void PathSolver::add_linear(int k, int j, double sign, double slack) noexcept {
   }
   double* a = qp_.add_row(stage(k), slack, rho_);
   for (int c = 0; c < m_; ++c) {
-    a[c] = sign * Z(k)[c * n_ + j];
+    a[c] = sign * basis(k)[c * n_ + j];
   }
   refs_.push_back({Kind::kLinear, k, j, sign});
 }
@@ -41,7 +41,7 @@ void PathSolver::add_waypoint_rows(int k) noexcept {
     const double slack = base_slack(k, q(k), g);
     double* a = qp_.add_row(stage(k), slack, rho_);
     for (int c = 0; c < m_; ++c) {
-      a[c] = g[0] * Z(k)[c * n_ + base[0]] + g[1] * Z(k)[c * n_ + base[1]];
+      a[c] = g[0] * basis(k)[c * n_ + base[0]] + g[1] * basis(k)[c * n_ + base[1]];
     }
     refs_.push_back({Kind::kBase, k, 0, 1.0});
     const double z = base_multiplier_[index(k)];
@@ -80,7 +80,7 @@ void PathSolver::add_point_row(Kind kind, int k, int i, double t, double z) noex
     }
     double* a = row + (stage(waypoint) - first) * m_;
     for (int c = 0; c < m_; ++c) {
-      a[c] = share * gradient.dot(ConstVector(Z(waypoint) + c * n_, n_));
+      a[c] = share * gradient.dot(ConstVector(basis(waypoint) + c * n_, n_));
     }
     Vector(lagrangian_.data() + waypoint * n_, n_) -= share * z * gradient;
   }
@@ -105,9 +105,9 @@ void PathSolver::add_segment_rows(int k) noexcept {
       double* a = qp_.add_row(first, slack, rho_);
       for (int c = 0; c < m_; ++c) {
         if (k >= fixed_) {
-          a[c] = sign * Z(k)[c * n_ + j];
+          a[c] = sign * basis(k)[c * n_ + j];
         }
-        a[(stage(k + 1) - first) * m_ + c] = -sign * Z(k + 1)[c * n_ + j];
+        a[(stage(k + 1) - first) * m_ + c] = -sign * basis(k + 1)[c * n_ + j];
       }
       refs_.push_back({Kind::kStep, k, j, sign});
     }

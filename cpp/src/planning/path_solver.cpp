@@ -204,7 +204,7 @@ PathSolver::Outcome PathSolver::iterate() noexcept {
     double longest = 0.0;
     for (int k = fixed_; k < count(); ++k) {
       Vector dq(dq_.data() + k * n_, n_);
-      dq.noalias() = ConstMatrix(Z(k), n_, m_).lazyProduct(ConstVector(qp_.p(stage(k)), m_));
+      dq.noalias() = ConstMatrix(basis(k), n_, m_).lazyProduct(ConstVector(qp_.p(stage(k)), m_));
       longest = std::max(longest, dq.lpNorm<Eigen::Infinity>());
     }
     const double scale = 1e-3 + std::abs(merit_.objective);

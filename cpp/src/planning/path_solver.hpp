@@ -50,7 +50,7 @@ class PathSolver {
   /// The window moves on by one: waypoint 0 is dropped, `goal` enters at the end with
   /// configuration q. Multipliers move along.
   void drop_first() noexcept;
-  void append(const PathGoal& goal, const double* q) noexcept;
+  void append(const PathGoal& goal, const double* from) noexcept;
 
   /// Waypoint 0 stands still; else the way to it from `from` counts like a step, if there is one.
   void hold_first(bool hold) { fixed_ = hold ? 1 : 0; }
@@ -110,14 +110,14 @@ class PathSolver {
   double step_bound(int j) const noexcept {
     return problem_.max_joint_step[j] - std::min(kMargin, 0.5 * problem_.max_joint_step[j]);
   }
-  double base_slack(int k, const double* q, double* gradient) const noexcept;
+  double base_slack(int k, const double* at, double* gradient) const noexcept;
 
   void linearize() noexcept;
   void linearize_waypoint(int k) noexcept;
   void add_rows() noexcept;
   void add_waypoint_rows(int k) noexcept;
   void add_segment_rows(int k) noexcept;
-  void add_point_row(Kind kind, int k, int i, double t, double multiplier) noexcept;
+  void add_point_row(Kind kind, int k, int i, double t, double z) noexcept;
   void add_linear(int k, int j, double sign, double slack) noexcept;
   void add_objective() noexcept;
   void add_curvature(bool convex) noexcept;
@@ -129,7 +129,7 @@ class PathSolver {
   double solve_model() noexcept;
 
   int stage(int k) const { return k - fixed_; }
-  const double* Z(int k) const { return Z_.data() + k * n_ * m_; }
+  const double* basis(int k) const { return Z_.data() + k * n_ * m_; }
 
   const PathProblem& problem_;
   int n_, m_, clearances_;

@@ -174,6 +174,7 @@ std::vector<BaseLine> lines_past_discs(const PathProblem& problem, const BaseLin
   }
   std::ranges::stable_sort(found, {}, [](const auto& entry) { return entry.first; });
   std::vector<BaseLine> lines;
+  lines.reserve(found.size());
   for (auto& entry : found) {
     lines.push_back(std::move(entry.second));
   }

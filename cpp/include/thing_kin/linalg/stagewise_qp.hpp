@@ -30,11 +30,11 @@ class StagewiseQp {
   int stages() const { return stages_; }
   int rows() const { return static_cast<int>(rows_.size()); }
 
-  /// (m, m) in column order, (m), and (m, m): rows belong to stage k, columns to stage k + 1. H is
-  /// symmetric.
-  double* H(int k) { return H_.data() + k * m_ * m_; }
+  /// H, g and E of a stage: (m, m) in column order, (m), and (m, m): rows belong to stage k,
+  /// columns to stage k + 1. H is symmetric.
+  double* block(int k) { return H_.data() + k * m_ * m_; }
   double* g(int k) { return g_.data() + k * m_; }
-  double* E(int k) { return E_.data() + k * m_ * m_; }
+  double* coupling(int k) { return E_.data() + k * m_ * m_; }
   const double* g(int k) const { return g_.data() + k * m_; }
 
   /// A row of one stage, or of stages k and k + 1; a and b are to be filled in by the caller:

@@ -69,8 +69,8 @@ class Problem {
 
   /// One bound for all entries, or one each; -inf and inf: none. `name`: default the term's. Throws
   /// InvalidArgument for NaN and wrong sizes.
-  void constrain(std::shared_ptr<const Term> term, const VectorView& lower, const VectorView& upper,
-                 const std::string& name = "");
+  void constrain(const std::shared_ptr<const Term>& term, const VectorView& lower,
+                 const VectorView& upper, const std::string& name = "");
 
   /// Throws InvalidArgument: no such variable, NaN.
   void bound(int variable, double lower, double upper);

@@ -27,6 +27,8 @@ class PathFollower {
   /// Refers to the problem's chain. window: at least 1 waypoint. q: (n), where the robot stands.
   PathFollower(PathProblem problem, int window, const JointVector& q);
   ~PathFollower();
+  PathFollower(const PathFollower&) = delete;
+  PathFollower& operator=(const PathFollower&) = delete;
   PathFollower(PathFollower&&) noexcept;
   PathFollower& operator=(PathFollower&&) noexcept;
 

@@ -22,9 +22,7 @@ struct Twist {
   Three v, w;
 };
 
-inline Six six(const Twist& t) {
-  return Six{t.v.x, t.v.y, t.v.z, t.w.x, t.w.y, t.w.z, 0.0, 0.0};
-}
+inline Six six(const Twist& t) { return Six{t.v.x, t.v.y, t.v.z, t.w.x, t.w.y, t.w.z, 0.0, 0.0}; }
 
 /// A (3, 3) matrix, rows.
 struct Nine {
@@ -176,64 +174,80 @@ inline Twist covector(const Six* u, const Six& along, double weight) {
   return {{p[0], p[1], p[2]}, {p[3], p[4], p[5]}};
 }
 
+/// In the axes of the eigenvectors: J, what each eigenvalue counts, and the covectors that make
+/// the second derivative of A count.
+struct EigenAxes {
+  Six share{};
+  Six rows[6];
+  Six B[kMaxDof];
+  Twist P[kMaxDof];
+
+  EigenAxes(const DexterityArguments& a, const WeightedColumns& c, const Spectrum<true>& s,
+            int most, int least) {
+    for (int i = 0; i < 6; ++i) {
+      const double kappa = i == most ? 0.5 : i == least ? -0.5 : 0.0;
+      share[i] = (kappa * a.condition_number - 0.5 * a.manipulability) / s.lambda[i];
+      rows[i] = Six{s.u[0][i], s.u[1][i], s.u[2][i], s.u[3][i], s.u[4][i], s.u[5][i], 0.0, 0.0};
+    }
+    for (int m = 0; m < a.count; ++m) {
+      B[m] = Six{};
+      for (int i = 0; i < 6; ++i) {
+        B[m] += c.column[m][i] * rows[i];
+      }
+      P[m] = covector(s.u, share * B[m], c.weight[m]);
+    }
+  }
+};
+
+/// One row of the second derivative, but for what P gives: for each l up to k.
+inline void bend(const DexterityArguments& a, const Six& share, const Six* factor,
+                 const Rate* rates, int k, double* row) {
+  Six scaled[kMaxDof];
+  Six bent[6];
+  for (int m = 0; m < a.count; ++m) {
+    scaled[m] = (2.0 * share) * rates[k].turned[m];
+  }
+  for (int j = 0; j < 6; ++j) {
+    bent[j] = factor[j] * rates[k].rate[j];
+  }
+  for (int l = a.first; l <= k; ++l) {
+    Six sum{};
+    for (int m = 0; m < a.count; ++m) {
+      sum += scaled[m] * rates[l].turned[m];
+    }
+    for (int j = 0; j < 6; ++j) {
+      sum += bent[j] * rates[l].rate[j];
+    }
+    row[l] = sum_of(sum);
+  }
+}
+
 inline void log_dexterity(const DexterityArguments& a, double* values, double* gradient,
                           double* hessian) {
   WeightedColumns c(a);
   const Spectrum<true> s(c.A);
-  int most;
-  int least;
+  int most = 0;
+  int least = 0;
   summarize(s, values, most, least);
   if (!(values[1] > DexterityArguments::kSingular * values[0])) {
     return;
   }
-  Six share{};
-  for (int i = 0; i < 6; ++i) {
-    const double kappa = i == most ? 0.5 : i == least ? -0.5 : 0.0;
-    share[i] = (kappa * a.condition_number - 0.5 * a.manipulability) / s.lambda[i];
-  }
-  Six rows[6];
-  for (int i = 0; i < 6; ++i) {
-    rows[i] = Six{s.u[0][i], s.u[1][i], s.u[2][i], s.u[3][i], s.u[4][i], s.u[5][i], 0.0, 0.0};
-  }
-  Six B[kMaxDof];
-  Twist P[kMaxDof];
-  for (int m = 0; m < a.count; ++m) {
-    B[m] = Six{};
-    for (int i = 0; i < 6; ++i) {
-      B[m] += c.column[m][i] * rows[i];
-    }
-    P[m] = covector(s.u, share * B[m], c.weight[m]);
-  }
-  const SecondDerivative second(c.J, P, a.count);
+  const EigenAxes axes(a, c, s, most, least);
+  const SecondDerivative second(c.J, axes.P, a.count);
   Six factor[6];
   curvature_factors(a, s.lambda, most, least, factor);
-
   Rate rates[kMaxDof];
   for (int k = a.first; k < a.count; ++k) {
-    Rate& at_k = rates[k];
-    differentiate(c, a.count, k, rows, B, at_k);
+    differentiate(c, a.count, k, axes.rows, axes.B, rates[k]);
     double slope = 0.0;
     for (int i = 0; i < 6; ++i) {
-      slope += share[i] * at_k.rate[i][i];
+      slope += axes.share[i] * rates[k].rate[i][i];
     }
     gradient[a.order[k]] = slope;
-    Six scaled[kMaxDof];
-    Six bent[6];
-    for (int m = 0; m < a.count; ++m) {
-      scaled[m] = (2.0 * share) * at_k.turned[m];
-    }
-    for (int j = 0; j < 6; ++j) {
-      bent[j] = factor[j] * at_k.rate[j];
-    }
+    double row[kMaxDof];
+    bend(a, axes.share, factor, rates, k, row);
     for (int l = a.first; l <= k; ++l) {
-      Six sum{};
-      for (int m = 0; m < a.count; ++m) {
-        sum += scaled[m] * rates[l].turned[m];
-      }
-      for (int j = 0; j < 6; ++j) {
-        sum += bent[j] * rates[l].rate[j];
-      }
-      const double value = 2.0 * second(c.J, l, k) + sum_of(sum);
+      const double value = 2.0 * second(c.J, l, k) + row[l];
       hessian[a.order[k] + a.stride * a.order[l]] = value;
       hessian[a.order[l] + a.stride * a.order[k]] = value;
     }
@@ -243,8 +257,8 @@ inline void log_dexterity(const DexterityArguments& a, double* values, double* g
 inline void dexterity_spectrum(const DexterityArguments& a, double* values) {
   WeightedColumns c(a);
   const Spectrum<false> s(c.A);
-  int most;
-  int least;
+  int most = 0;
+  int least = 0;
   summarize(s, values, most, least);
 }
 

@@ -45,7 +45,7 @@ struct Spectrum {
   // Makes column k zero below the entry beside the diagonal. The index is known to the compiler, so
   // that columns stay in registers.
   template <int k>
-  [[gnu::always_inline]] inline void reflect(Six A[6]) {
+  [[gnu::always_inline]] void reflect(Six A[6]) {
     constexpr Six kBelow{
         0.0, k < 1 ? 1.0 : 0.0, k < 2 ? 1.0 : 0.0, k < 3 ? 1.0 : 0.0, k < 4 ? 1.0 : 0.0, 1.0, 0.0,
         0.0};
