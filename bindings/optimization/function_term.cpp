@@ -106,9 +106,8 @@ std::shared_ptr<const Term> PythonFunction::bind(const std::shared_ptr<const Cha
   }
   return std::make_shared<FunctionTerm>(
       name_, size_, n_,
-      [functions](const VectorView& x, Eigen::Ref<Eigen::VectorXd> value, Eigen::MatrixXd* J) {
-        return functions.evaluate(x, std::move(value), J);
-      },
+      [functions](const VectorView& x, const Eigen::Ref<Eigen::VectorXd>& value,
+                  Eigen::MatrixXd* J) { return functions.evaluate(x, value, J); },
       std::move(hessian));
 }
 
