@@ -6,9 +6,9 @@
 
 #include "array.hpp"
 #include "bindings.hpp"
+#include "column_weights.hpp"
 #include "model/chain.hpp"
 #include "model/obstacle.hpp"
-#include "column_weights.hpp"
 #include "thing_kin/core/error.hpp"
 
 namespace thing_kin::python {

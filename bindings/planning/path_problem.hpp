@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "array.hpp"
+#include "column_weights.hpp"
 #include "model/chain.hpp"
 #include "model/obstacle.hpp"
-#include "column_weights.hpp"
 #include "thing_kin/planning/path_problem.hpp"
 
 namespace thing_kin::python {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "thing_kin/inverse/ik_descent.hpp"
 #include "thing_kin/core/low_discrepancy.hpp"
+#include "thing_kin/inverse/ik_descent.hpp"
 #include "thing_kin/inverse/reach.hpp"
 
 namespace thing_kin {
