@@ -238,7 +238,9 @@ bool PoseDescent::stiffen(const FormsView& forms) noexcept {
 
 // The same with the size of each curvature instead of itself.
 void PoseDescent::convexify() noexcept {
-  const Eigen::SelfAdjointEigenSolver<SmallMatrix> solver(H_);
+  Eigen::SelfAdjointEigenSolver<SmallMatrix> solver(
+      H_.rows());  // in two steps: GCC 12 misreads one
+  solver.compute(H_);
   const SmallVector curvature = solver.eigenvalues().cwiseAbs();
   const double least = std::max(kLeastCurvature * curvature.maxCoeff(), 1e-12);
   H_ = solver.eigenvectors() * curvature.cwiseMax(least).asDiagonal() *
