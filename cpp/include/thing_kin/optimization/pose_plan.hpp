@@ -26,8 +26,8 @@ struct PosePlanOptions {
   bool global = false;         ///< the best of all, not the next to the seed
   int max_iterations = 60;     ///< of one descent
   int max_restarts = 100;      ///< of a local search, where the seed's descent fails
-  int samples = 96;            ///< of a global search: base placements
-  int descents = 24;           ///< of a global search: from the best of the samples
+  int samples = 128;           ///< of a global search: base placements
+  int descents = 32;           ///< of a global search: from the best of the samples
   double tolerance = 1e-8;     ///< m and rad: a constraint violated by less is kept
   std::uint64_t rng = 0;       ///< which samples are tried
 
