@@ -238,13 +238,22 @@ bool PoseDescent::stiffen(const FormsView& forms) noexcept {
 
 // The same with the size of each curvature instead of itself.
 void PoseDescent::convexify() noexcept {
-  Eigen::SelfAdjointEigenSolver<SmallMatrix> solver(
-      H_.rows());  // in two steps: GCC 12 misreads one
+  const Eigen::Index k = H_.rows();
+  // Loops, and the solver in two steps: GCC 12 takes Eigen's own for reading what is not set.
+  Eigen::SelfAdjointEigenSolver<SmallMatrix> solver(k);
   solver.compute(H_);
-  const SmallVector curvature = solver.eigenvalues().cwiseAbs();
-  const double least = std::max(kLeastCurvature * curvature.maxCoeff(), 1e-12);
-  H_ = solver.eigenvectors() * curvature.cwiseMax(least).asDiagonal() *
-       solver.eigenvectors().transpose();
+  std::array<double, kMaxDof> curvature{};
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < k; ++i) {
+    curvature[static_cast<std::size_t>(i)] = std::abs(solver.eigenvalues()[i]);
+    largest = std::max(largest, curvature[static_cast<std::size_t>(i)]);
+  }
+  H_.setZero();
+  for (Eigen::Index i = 0; i < k; ++i) {
+    const double least = std::max(kLeastCurvature * largest, 1e-12);
+    const auto v = solver.eigenvectors().col(i);
+    H_ += std::max(curvature[static_cast<std::size_t>(i)], least) * v * v.transpose();
+  }
 }
 
 bool PoseDescent::minimize() noexcept {
