@@ -124,6 +124,26 @@ TEST(PosePlan, TheBestOfAllIsNoWorse) {
   }
 }
 
+// One step from a feasible seed: what is found is feasible, and said to be no more than that.
+TEST(PosePlan, FeasibleIsNotConverged) {
+  const Chain robot = robots::thing();
+  Generator rng(23);
+  int feasible = 0;
+  for (int i = 0; i < 40; ++i) {
+    Instance instance = random_instance(robot, rng);
+    instance.options.max_iterations = 1;
+    instance.options.max_restarts = 0;
+    const PosePlanner planner(robot, robot.tool(), instance.options, {}, instance.obstacles);
+    const PosePlan plan = planner.solve(instance.target, instance.drawn.data());
+    if (plan.constraint_violation <= instance.options.tolerance) {
+      ++feasible;
+      EXPECT_EQ(plan.status, SolveStatus::kBudget);
+      EXPECT_NE(message(planner, plan).find("feasible, but"), std::string::npos);
+    }
+  }
+  EXPECT_GT(feasible, 10);
+}
+
 TEST(PosePlan, OutOfReachNamesTheHand) {
   const Chain robot = robots::thing();
   PosePlanOptions options;

@@ -203,7 +203,7 @@ void PoseDescent::collect_forms() noexcept {
   }
 }
 
-// Curvature across sides that were active in the last step, if they hold again costs nothing and
+// Curvature across sides that were active in the last step costs nothing if they hold again, and
 // may be all that is missing to convexity: |a . z - b|^2 vanishes on them.
 bool PoseDescent::stiffen(const FormsView& forms) noexcept {
   const double stiffness = 10.0 * H_.cwiseAbs().maxCoeff();
@@ -236,7 +236,7 @@ bool PoseDescent::stiffen(const FormsView& forms) noexcept {
                      [&](int form) { return qp_.holds(form); });
 }
 
-// The same with the size of each curvature instead of itself.
+// The Hessian with the size of each curvature instead of itself.
 void PoseDescent::convexify() noexcept {
   const Eigen::Index k = H_.rows();
   // Loops, and the solver in two steps: GCC 12 takes Eigen's own for reading what is not set.
@@ -256,6 +256,7 @@ void PoseDescent::convexify() noexcept {
   }
 }
 
+// The quadratic program, made convex if it is not.
 bool PoseDescent::minimize() noexcept {
   const Eigen::Index k = Z_.cols();
   const Eigen::Index count = here_->q.size() + static_cast<Eigen::Index>(inequalities_.size());

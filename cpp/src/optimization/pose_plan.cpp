@@ -212,13 +212,18 @@ std::string message(const PosePlanner& planner, const PosePlan& plan) {
   if (plan.success()) {
     return "converged";
   }
-  const char* unit = plan.worst == kRotation || plan.worst == kLimits ? "" : " m";
-  std::string text = to_string(plan.status);
-  return text.append(": ")
+  const std::string status = to_string(plan.status);
+  if (plan.constraint_violation <= planner.options().tolerance) {
+    return std::string(status).append(": feasible, but no descent came to its end");
+  }
+  return std::string(status)
+      .append(": ")
       .append(planner.describe(plan.worst))
       .append(" is off by ")
-      .append(thing_kin::text(plan.constraint_violation))
-      .append(plan.worst == kRotation ? " rad" : unit);
+      .append(text(plan.constraint_violation))
+      .append(plan.worst == kRotation ? " rad"
+              : plan.worst == kLimits ? ""
+                                      : " m");
 }
 
 }  // namespace thing_kin

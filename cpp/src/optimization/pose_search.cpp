@@ -1,8 +1,6 @@
 #include "pose_search.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "thing_kin/kinematics/pose_error.hpp"
 
@@ -29,23 +27,8 @@ PoseSearch::PoseSearch(const PosePlanner& planner, const SE3& target, const doub
       seed_(clamped(planner.box_, seed, planner.chain_.dof())),
       descent_(planner, target),
       starts_(planner, descent_.ik(), target_, seed_),
-      best_value_(std::numeric_limits<double>::infinity()),
-      best_violation_(std::numeric_limits<double>::infinity()),
       start_(std::chrono::steady_clock::now()) {
   best_.q = seed_;
-}
-
-// Feasible before infeasible, then by the objective; infeasible by the violation.
-void PoseSearch::keep_if_better() {
-  const PosePoint& point = descent_.point();
-  const bool feasible = descent_.is_feasible();
-  const bool better = feasible ? !found_ || point.objective.value < best_value_
-                               : !found_ && point.violation < best_violation_;
-  if (better) {
-    best_.q = point.q;
-    best_value_ = point.objective.value;
-    best_violation_ = point.violation;
-  }
 }
 
 // True: the descent converged to a feasible point.
@@ -56,8 +39,16 @@ bool PoseSearch::try_from(const JointVector& q) {
   const int before = descent_.iterations();
   const bool converged = descent_.descend(planner_.options_.max_iterations);
   out_of_iterations_ |= descent_.iterations() - before == planner_.options_.max_iterations;
-  keep_if_better();
-  found_ |= converged;
+  const PosePoint& point = descent_.point();
+  const bool feasible = descent_.is_feasible();
+  const Rank rank{converged  ? Kind::kOptimum
+                  : feasible ? Kind::kFeasible
+                             : Kind::kInfeasible,
+                  feasible ? point.objective.value : point.violation};
+  if (rank < rank_) {
+    rank_ = rank;
+    best_.q = point.q;
+  }
   return converged;
 }
 
@@ -102,7 +93,8 @@ void PoseSearch::search_all() {
   try_from(seed_);
   const std::vector<Candidate> candidates = sample();
   const auto most = static_cast<std::size_t>(planner_.options_.descents);
-  for (std::size_t i = 0; i < candidates.size() && (i < most || !found_); ++i) {
+  for (std::size_t i = 0; i < candidates.size() && (i < most || rank_.kind != Kind::kOptimum);
+       ++i) {
     ++best_.restarts;
     try_from(candidates[i].q);
   }
@@ -124,9 +116,11 @@ void PoseSearch::verify(PosePlan& plan) const {
     }
   }
   const bool feasible = plan.constraint_violation <= planner_.options_.tolerance;
-  plan.status = feasible && found_   ? SolveStatus::kConverged
-                : out_of_iterations_ ? SolveStatus::kBudget
-                                     : SolveStatus::kInfeasible;
+  if (feasible) {
+    plan.status = rank_.kind == Kind::kOptimum ? SolveStatus::kConverged : SolveStatus::kBudget;
+  } else {
+    plan.status = out_of_iterations_ ? SolveStatus::kBudget : SolveStatus::kInfeasible;
+  }
 }
 
 PosePlan PoseSearch::run() {
@@ -135,7 +129,7 @@ PosePlan PoseSearch::run() {
   } else {
     search_near();
   }
-  if (std::isinf(best_violation_) && descent_.nearest_miss().size() > 0) {
+  if (rank_.kind == Kind::kNone && descent_.nearest_miss().size() > 0) {
     best_.q = descent_.nearest_miss();
   }
   planner_.box_.wind_towards(seed_, best_.q);

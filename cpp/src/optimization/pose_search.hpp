@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <compare>
 #include <vector>
 
 #include "pose_starts.hpp"
@@ -17,6 +18,15 @@ class PoseSearch {
  private:
   using Starts = std::array<JointVector, ClosedFormSolutions::kMost>;
 
+  /// What came of a descent, the best first; of two alike, the one with less objective or, where it
+  /// is infeasible, less violation.
+  enum class Kind : std::uint8_t { kOptimum, kFeasible, kInfeasible, kNone };
+  struct Rank {
+    Kind kind = Kind::kNone;
+    double value = 0.0;
+    auto operator<=>(const Rank&) const = default;
+  };
+
   struct Candidate {
     JointVector q;
     double rank;  ///< log sqrt(kappa/M), with the violation at a price
@@ -26,7 +36,6 @@ class PoseSearch {
   void search_all();
   std::vector<Candidate> sample();
   bool try_from(const JointVector& q);
-  void keep_if_better();
   void verify(PosePlan& plan) const;
 
   const PosePlanner& planner_;
@@ -35,9 +44,7 @@ class PoseSearch {
   PoseDescent descent_;
   PoseStarts starts_;
   PosePlan best_;
-  double best_value_;
-  double best_violation_;
-  bool found_ = false;
+  Rank rank_;  // of best_.q
   bool out_of_iterations_ = false;
   std::chrono::steady_clock::time_point start_;
 };

@@ -289,13 +289,15 @@ class Planner {
     const std::vector<PathMiss> misses = check_path(
         problem_, goals_, plan.q, {options_.position_tolerance, options_.rotation_tolerance},
         options_.constraint_tolerance, plan.constraint_violation);
-    plan.success = misses.empty() && plan.status != SolveStatus::kInfeasible;
-    if (misses.empty()) {
+    plan.success = misses.empty();
+    if (plan.success) {
+      // The solver keeps a margin, and may fail at that alone.
+      plan.status =
+          plan.status == SolveStatus::kConverged ? SolveStatus::kConverged : SolveStatus::kBudget;
       plan.failed_waypoint = -1;
       plan.message = plan.status == SolveStatus::kConverged
                          ? "every waypoint is met"
-                         : "every waypoint is met, but iterations ran out before the optimum";
-      plan.success = true;
+                         : "every waypoint is met, but not at an optimum";
       return;
     }
     const PathMiss& first = misses.front();
