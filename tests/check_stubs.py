@@ -12,7 +12,7 @@ import tempfile
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent.parent / "python" / "thing_kin"
-MODULES = ("thing_kin._core", "thing_kin._ceres", "thing_kin._kdl", "thing_kin._urdf")
+MODULES = tuple(f"thing_kin._{name}" for name in ("core", "ceres", "estimation", "kdl", "urdf"))
 
 
 def generate(directory: Path) -> Path:

@@ -23,6 +23,8 @@ LAYERS: dict[str, tuple[str, ...]] = {
     "inverse": ("kinematics",),
     "optimization": ("inverse",),
     "planning": ("optimization",),
+    "odometry": ("lie", "linalg"),
+    "estimation": ("odometry", "kinematics"),
 }
 KDL_SOURCE = CPP / "src" / "model" / "kdl_chain.cpp"
 URDF_SOURCE = CPP / "src" / "model" / "urdf.cpp"

@@ -1,0 +1,9 @@
+#include <pybind11/pybind11.h>
+
+#include "estimation_bindings.hpp"
+
+PYBIND11_MODULE(_estimation, m) {
+  using namespace thing_kin::python;
+  py::module_::import("thing_kin._core");  // brings the types of the model
+  m.doc() = "Odometry and estimation. Private: import its names from thing_kin.estimation.";
+}

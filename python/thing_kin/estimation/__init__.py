@@ -1,0 +1,1 @@
+"""Where the base is, where the hand is, and how sure we are."""
