@@ -116,6 +116,42 @@ TEST(LogDexterity, DerivativesOfRandomChains) {
   EXPECT_GT(redundant, 5);
 }
 
+// In some directions, as the whole one says.
+void expect_the_same_along(const Chain& chain, const double* weights, std::uint64_t seed) {
+  std::mt19937_64 rng(seed);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  const DexterityWeights share{0.3, 0.8};
+  for (int i = 0; i < 30; ++i) {
+    const Jacobian J = jacobian_at(chain, random_q(chain, rng));
+    SmallMatrix Z(chain.dof(), 1 + i % chain.dof());
+    for (Eigen::Index k = 0; k < Z.size(); ++k) {
+      Z.data()[k] = any(rng);
+    }
+    LogDexterity whole;
+    LogDexterity along;
+    ASSERT_EQ(log_dexterity(chain, J, weights, whole, share),
+              log_dexterity_along(chain, J, Z, weights, along, share));
+    const SmallMatrix expected = Z.transpose() * whole.hessian * Z;
+    const double size = 1.0 + whole.hessian.cwiseAbs().maxCoeff() * Z.rows() * Z.rows();
+    EXPECT_LE((along.hessian - expected).cwiseAbs().maxCoeff(), 1e-12 * size);
+    EXPECT_EQ(along.gradient, whole.gradient);
+    EXPECT_EQ(along.value, whole.value);
+  }
+}
+
+TEST(LogDexterity, AlongDirectionsItIsTheWholeOne) {
+  const double weights[9] = {1, 0.5, 2, 0.7, 1, 1, 0.3, 0.9, 0.2};
+  expect_the_same_along(robots::thing(), nullptr, 11);
+  expect_the_same_along(robots::thing(), weights, 12);
+  test::Generator rng(13);
+  for (int i = 0; i < 40; ++i) {
+    const Chain chain = test::random_chain(rng);
+    if (chain.dof() >= 6) {
+      expect_the_same_along(chain, nullptr, 200 + static_cast<std::uint64_t>(i));
+    }
+  }
+}
+
 TEST(LogDexterity, ValueIsThatOfTheSingularValues) {
   const Chain robot = robots::thing();
   std::mt19937_64 rng(7);

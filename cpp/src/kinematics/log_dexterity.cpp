@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "kernels/kernels.hpp"
 
@@ -42,6 +41,31 @@ bool is_regular(const std::array<double, 3>& values) noexcept {
   return values[1] > DexterityArguments::kSingular * values[0];
 }
 
+DexterityArguments arguments_of(const Jacobian& J, const Order& order, const double* columns,
+                                const DexterityWeights& weights) noexcept {
+  return {J.data(),
+          order.index.data(),
+          order.count,
+          order.first,
+          columns,
+          weights.condition_number,
+          weights.manipulability,
+          static_cast<int>(J.cols())};
+}
+
+bool summarize_values(const std::array<double, 3>& values, const DexterityWeights& weights,
+                      LogDexterity& out) noexcept {
+  if (!is_regular(values)) {
+    out.value = kInfinity;
+    return false;
+  }
+  out.log_condition_number = 0.5 * std::log(values[0] / values[1]);
+  out.log_manipulability = 0.5 * std::log(values[2]);
+  out.value = weights.condition_number * out.log_condition_number -
+              weights.manipulability * out.log_manipulability;
+  return true;
+}
+
 }  // namespace
 
 double log_dexterity(const Jacobian& J, const double* column_weights) noexcept {
@@ -53,8 +77,7 @@ double log_dexterity(const Jacobian& J, const double* column_weights) noexcept {
   std::array<double, 3> values;
   kernels().dexterity_spectrum({J.data(), order.data(), n, n, column_weights, 0.5, 0.5, kMaxDof},
                                values.data());
-  return is_regular(values) ? 0.25 * std::log(values[0] / (values[1] * values[2]))
-                            : std::numeric_limits<double>::infinity();
+  return is_regular(values) ? 0.25 * std::log(values[0] / (values[1] * values[2])) : kInfinity;
 }
 
 bool log_dexterity(const Chain& chain, const Jacobian& J, const double* column_weights,
@@ -64,18 +87,23 @@ bool log_dexterity(const Chain& chain, const Jacobian& J, const double* column_w
   out.gradient.setZero(n);
   out.hessian.setZero(n, n);
   std::array<double, 3> values;
-  kernels().log_dexterity({J.data(), order.index.data(), order.count, order.first, column_weights,
-                           weights.condition_number, weights.manipulability, static_cast<int>(n)},
-                          values.data(), out.gradient.data(), out.hessian.data());
-  if (!is_regular(values)) {
-    out.value = std::numeric_limits<double>::infinity();
-    return false;
-  }
-  out.log_condition_number = 0.5 * std::log(values[0] / values[1]);
-  out.log_manipulability = 0.5 * std::log(values[2]);
-  out.value = weights.condition_number * out.log_condition_number -
-              weights.manipulability * out.log_manipulability;
-  return true;
+  kernels().log_dexterity(arguments_of(J, order, column_weights, weights), values.data(),
+                          out.gradient.data(), out.hessian.data());
+  return summarize_values(values, weights, out);
+}
+
+bool log_dexterity_along(const Chain& chain, const Jacobian& J, const SmallMatrix& Z,
+                         const double* column_weights, LogDexterity& out,
+                         const DexterityWeights& weights) noexcept {
+  const Order order = order_of(chain, column_weights);
+  const Eigen::Index k = Z.cols();
+  out.gradient.setZero(J.cols());
+  out.hessian.setZero(k, k);
+  std::array<double, 3> values;
+  kernels().log_dexterity_along(arguments_of(J, order, column_weights, weights), Z.data(),
+                                static_cast<int>(k), values.data(), out.gradient.data(),
+                                out.hessian.data());
+  return summarize_values(values, weights, out);
 }
 
 }  // namespace thing_kin

@@ -128,9 +128,11 @@ bool PoseDescent::place(const JointVector& q, int most, PosePoint& point) noexce
   geometric_jacobian(planner_.chain_, point.posture, planner_.frame_, ReferenceFrame::kWorldAligned,
                      point.J);
   measure(point);
+  point.rows.factor(point.J);
+  point.rows.null_space(point.Z);
   const JointVector& weights = planner_.options_.column_weights;
-  return log_dexterity(planner_.chain_, point.J, weights.size() > 0 ? weights.data() : nullptr,
-                       point.objective);
+  return log_dexterity_along(planner_.chain_, point.J, point.Z,
+                             weights.size() > 0 ? weights.data() : nullptr, point.objective);
 }
 
 bool PoseDescent::begin(const JointVector& q) noexcept {
@@ -144,10 +146,9 @@ bool PoseDescent::begin(const JointVector& q) noexcept {
 // The null space of J, and the Lagrangian's gradient and Hessian in it. The pose's multipliers are
 // those of least squares, given those of the inequalities of the step before.
 void PoseDescent::reduce() noexcept {
-  rows_.factor(here_->J);
-  rows_.null_space(Z_);
+  const SmallMatrix& Z = here_->Z;
   const JointVector& gradient = here_->objective.gradient;
-  SmallMatrix W = here_->objective.hessian;
+  SmallMatrix W = SmallMatrix::Zero(gradient.size(), gradient.size());  // but the objective's
   JointVector pull = gradient - nu_;
   JointVector along;
   for (int i = 0; i < static_cast<int>(mu_.size()); ++i) {
@@ -164,22 +165,23 @@ void PoseDescent::reduce() noexcept {
       }
     }
   }
-  rows_.apply_q_transposed(pull.data());
+  here_->rows.apply_q_transposed(pull.data());
   Vector6 lambda = pull.head<6>();
-  rows_.solve_r(lambda.data());
+  here_->rows.solve_r(lambda.data());
   add_pose_curvature(planner_.chain_, here_->J, -lambda, W);
   // Small: coefficient by coefficient is quicker than by blocks.
-  g_.noalias() = Z_.transpose().lazyProduct(gradient);
-  const SmallMatrix WZ = W.lazyProduct(Z_);
-  H_.noalias() = Z_.transpose().lazyProduct(WZ);
+  g_.noalias() = Z.transpose().lazyProduct(gradient);
+  const SmallMatrix WZ = W.lazyProduct(Z);
+  H_.noalias() = Z.transpose().lazyProduct(WZ);
+  H_ += here_->objective.hessian;
 }
 
 // What each joint may do within its sides and the trust region, and what inequalities may come into
 // play. An endless joint has no sides: it goes on at the other end.
 void PoseDescent::collect_forms() noexcept {
   const Eigen::Index n = here_->q.size();
-  const Eigen::Index k = Z_.cols();
-  forms_.topLeftCorner(k, n) = Z_.transpose();
+  const Eigen::Index k = here_->Z.cols();
+  forms_.topLeftCorner(k, n) = here_->Z.transpose();
   for (Eigen::Index j = 0; j < n; ++j) {
     const bool endless = ik_.box.is_endless(j);
     lower_[j] = endless ? -radius_ : std::max(-radius_, ik_.box.lower(j) - here_->q[j]);
@@ -195,7 +197,7 @@ void PoseDescent::collect_forms() noexcept {
       continue;
     }
     const Eigen::Index column = n + static_cast<Eigen::Index>(place);
-    forms_.col(column).head(k).noalias() = Z_.transpose() * along;
+    forms_.col(column).head(k).noalias() = here_->Z.transpose() * along;
     lower_[column] = -slack;
     upper_[column] = std::numeric_limits<double>::infinity();
     inequalities_.push_back(i);
@@ -257,7 +259,7 @@ void PoseDescent::convexify() noexcept {
 
 // The quadratic program, made convex if it is not.
 bool PoseDescent::minimize() noexcept {
-  const Eigen::Index k = Z_.cols();
+  const Eigen::Index k = here_->Z.cols();
   const Eigen::Index count = here_->q.size() + static_cast<Eigen::Index>(inequalities_.size());
   const auto forms = forms_.topLeftCorner(k, count);
   ConvexQp::Status status = qp_.minimize(H_, g_, forms, lower_.data(), upper_.data());
@@ -281,7 +283,7 @@ bool PoseDescent::minimize() noexcept {
 // at a price.
 bool PoseDescent::relax() noexcept {
   const Eigen::Index n = here_->q.size();
-  const Eigen::Index k = Z_.cols();
+  const Eigen::Index k = here_->Z.cols();
   const Eigen::Index count = n + static_cast<Eigen::Index>(inequalities_.size());
   if (k + 1 > kMaxDof || k + 1 > forms_.rows()) {
     return false;
@@ -343,7 +345,7 @@ PoseDescent::Step PoseDescent::step() noexcept {
   if (!minimize()) {
     return Step::kStuck;
   }
-  const JointVector dq = Z_.lazyProduct(z_);
+  const JointVector dq = here_->Z.lazyProduct(z_);
   const double length = dq.cwiseAbs().maxCoeff();
   const double gain =
       -(g_.dot(z_) + 0.5 * z_.dot(H_ * z_)) + penalty_ * (here_->violation - predicted_violation());

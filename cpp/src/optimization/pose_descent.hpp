@@ -20,7 +20,9 @@ struct PosePoint {
   JointVector q;
   Posture posture;
   Jacobian J;
-  LogDexterity objective;
+  RowQr rows;              // of J
+  SmallMatrix Z;           // its null space
+  LogDexterity objective;  // its second derivative along Z
   Eigen::VectorXd slack;   // of the inequalities: the base's disc, if there is one; the clearances
   double violation = 0.0;  // the sum of what they fall short of zero
 };
@@ -79,10 +81,9 @@ class PoseDescent {
   double miss_ = std::numeric_limits<double>::infinity();
 
   // The quadratic program of a step: z in the null space of J.
-  SmallMatrix Z_, H_;
+  SmallMatrix H_;
   SmallVector g_, z_;
   bool exact_ = true;  // H is the Lagrangian's own Hessian
-  RowQr rows_;
   ConvexQp qp_;
   Eigen::MatrixXd forms_;
   Eigen::VectorXd lower_, upper_;

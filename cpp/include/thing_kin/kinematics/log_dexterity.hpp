@@ -13,7 +13,7 @@ namespace thing_kin {
 struct LogDexterity {
   double value;  ///< infinite where the Jacobian has lost rank
   JointVector gradient;
-  SmallMatrix hessian;
+  SmallMatrix hessian;  ///< (n, n), or (k, k) along k directions
 
   double log_condition_number;  ///< log kappa, [M17] (4.32)
   double log_manipulability;    ///< log M, [M17] (4.30)
@@ -33,6 +33,12 @@ struct DexterityWeights {
 /// is given.
 bool log_dexterity(const Chain& chain, const Jacobian& J, const double* column_weights,
                    LogDexterity& out, const DexterityWeights& weights = {}) noexcept;
+
+/// The same, but with the Hessian along the columns of Z (n, k) only: Z^T H Z (k, k), at a fraction
+/// of the cost where k is small.
+bool log_dexterity_along(const Chain& chain, const Jacobian& J, const SmallMatrix& Z,
+                         const double* column_weights, LogDexterity& out,
+                         const DexterityWeights& weights = {}) noexcept;
 
 /// The value alone.
 double log_dexterity(const Jacobian& J, const double* column_weights) noexcept;

@@ -36,38 +36,37 @@ struct Nine {
     z = z + sign * (a.z * b - Three{0.0, 0.0, ab});
   }
   Three operator*(const Three& a) const { return {dot(x, a), dot(y, a), dot(z, a)}; }
-  Nine operator-(const Nine& o) const { return {x - o.x, y - o.y, z - o.z}; }
 };
 
 /// sum_m P_m . d^2 J_m / dq_k dq_l for k <= l in chain order, P fixed covectors.
 ///
 /// Position: the third derivative of p by a <= b <= c is w_a x (w_b x v_c). Axis: that of w_m by
 /// k <= l < m is w_k x (w_l x w_m), and zero else. x . (a x (b x c)) = a^T (c x^T - (x . c) I) b is
-/// linear in each: sums over m are running matrices.
+/// linear in each: sums over m are running matrices, and what they do to each joint one vector for
+/// its part as the inner, one as the outer of a pair.
 struct SecondDerivative {
-  Nine outer[kMaxDof], between[kMaxDof];
-  Three inner[kMaxDof];
+  Three inner[kMaxDof], outer[kMaxDof];
 
   SecondDerivative(const Twist* J, const Twist* P, int count) {
     Nine sum;
     for (int m = count - 1; m >= 0; --m) {
       sum.add(1.0, J[m].v, P[m].v);
-      outer[m] = sum;  // w_m itself turns by joints before it only
+      outer[m] = sum * J[m].w;  // w_m itself turns by joints before it only
       sum.add(1.0, J[m].w, P[m].w);
     }
     Nine passed;
     Three torque{};
     for (int m = 0; m < count; ++m) {
-      between[m] = passed;
-      inner[m] = torque;
-      passed.add(-1.0, J[m].w, P[m].v);
-      torque = torque + cross(P[m].v, J[m].w);
+      const Three& w = J[m].w;
+      outer[m] = outer[m] + passed * J[m].v;
+      inner[m] = cross(torque, w) - (w.x * passed.x + w.y * passed.y + w.z * passed.z);
+      passed.add(-1.0, w, P[m].v);
+      torque = torque + cross(P[m].v, w);
     }
   }
 
   double operator()(const Twist* J, int k, int l) const {
-    const Three far = outer[l] * J[l].w + (between[l] - between[k]) * J[l].v;
-    return dot(J[k].w, far) + dot(inner[k], cross(J[k].w, J[l].v));
+    return dot(J[k].w, outer[l]) + dot(inner[k], J[l].v);
   }
 };
 
@@ -77,6 +76,37 @@ inline Twist derivative(const Twist* J, int m, int k) {
     return {cross(J[m].w, J[k].v), {}};
   }
   return {cross(J[k].w, J[m].v), cross(J[k].w, J[m].w)};
+}
+
+/// sum_k z_k dJ_m/dq_k of all joints m, with z_k for those from `first` on, in chain order.
+inline void derivative_along(const Twist* J, const double* z, int first, int count, Twist* out) {
+  Three shift{};  // of a point beyond the last joint
+  for (int k = count - 1; k >= 0; --k) {
+    out[k] = {cross(J[k].w, shift), {}};
+    if (k >= first) {
+      shift = shift + z[k] * J[k].v;
+    }
+  }
+  Three turn{};
+  for (int m = first; m < count; ++m) {
+    turn = turn + z[m] * J[m].w;
+    out[m].v = out[m].v + cross(turn, J[m].v);
+    out[m].w = cross(turn, J[m].w);
+  }
+}
+
+/// 2 sum_m P_m . dJ_m/dq_k for all k, P fixed covectors.
+inline void slopes(const Twist* J, const Twist* P, int count, double* slope) {
+  Three moment{};
+  for (int k = count - 1; k >= 0; --k) {
+    moment = moment + cross(J[k].v, P[k].v) + cross(J[k].w, P[k].w);
+    slope[k] = 2.0 * dot(J[k].w, moment);
+  }
+  Three force{};
+  for (int k = 0; k < count; ++k) {
+    slope[k] += 2.0 * dot(J[k].v, force);
+    force = force + cross(P[k].v, J[k].w);
+  }
 }
 
 /// Columns of J in chain order, with their weights, and A = J W J^T.
@@ -137,17 +167,17 @@ inline void curvature_factors(const DexterityArguments& a, const double* lambda,
   }
 }
 
-/// What the eigenvalues do as joint k moves: turned = U^T dJ W^1/2, rate = U^T dA U.
+/// What the eigenvalues do as J changes by dJ: turned = U^T dJ W^1/2, rate = U^T dA U.
 struct Rate {
   Six turned[kMaxDof];
   Six rate[6];
 };
 
-inline void differentiate(const WeightedColumns& c, int count, int k, const Six* rows, const Six* B,
-                          Rate& out) {
+inline void differentiate(const WeightedColumns& c, const Twist* dJ, int count, const Six* rows,
+                          const Six* B, Rate& out) {
   Six half[6] = {};
   for (int m = 0; m < count; ++m) {
-    const Twist d = derivative(c.J, m, k);
+    const Twist& d = dJ[m];
     Six t = d.v.x * rows[0] + d.v.y * rows[1] + d.v.z * rows[2];
     t += d.w.x * rows[3] + d.w.y * rows[4] + d.w.z * rows[5];
     t *= c.weight[m];
@@ -199,20 +229,20 @@ struct EigenAxes {
   }
 };
 
-/// One row of the second derivative, but for what P gives: for each l up to k.
-inline void bend(const DexterityArguments& a, const Six& share, const Six* factor,
-                 const Rate* rates, int k, double* row) {
+/// The second derivative by two motions, but for what P gives: for one, and each of the first.
+inline void bend(int count, const Six& share, const Six* factor, const Rate* rates, int begin,
+                 int k, double* row) {
   Six scaled[kMaxDof];
   Six bent[6];
-  for (int m = 0; m < a.count; ++m) {
+  for (int m = 0; m < count; ++m) {
     scaled[m] = (2.0 * share) * rates[k].turned[m];
   }
   for (int j = 0; j < 6; ++j) {
     bent[j] = factor[j] * rates[k].rate[j];
   }
-  for (int l = a.first; l <= k; ++l) {
+  for (int l = begin; l <= k; ++l) {
     Six sum{};
-    for (int m = 0; m < a.count; ++m) {
+    for (int m = 0; m < count; ++m) {
       sum += scaled[m] * rates[l].turned[m];
     }
     for (int j = 0; j < 6; ++j) {
@@ -222,34 +252,114 @@ inline void bend(const DexterityArguments& a, const Six& share, const Six* facto
   }
 }
 
+/// The eigenvalues, what each counts, and the gradient: what both forms of the second derivative
+/// need.
+struct DexterityState {
+  WeightedColumns c;
+  Spectrum<true> spectrum;
+  bool regular;
+
+  DexterityState(const DexterityArguments& a, double* values) : c(a), spectrum(c.A) {
+    summarize(spectrum, values, most_, least_);
+    regular = values[1] > DexterityArguments::kSingular * values[0];
+  }
+
+  EigenAxes axes(const DexterityArguments& a) const { return {a, c, spectrum, most_, least_}; }
+  void factors(const DexterityArguments& a, Six factor[6]) const {
+    curvature_factors(a, spectrum.lambda, most_, least_, factor);
+  }
+
+ private:
+  int most_ = 0;
+  int least_ = 0;
+};
+
+inline void write_gradient(const DexterityArguments& a, const Twist* J, const Twist* P,
+                           double* gradient) {
+  double slope[kMaxDof];
+  slopes(J, P, a.count, slope);
+  for (int k = a.first; k < a.count; ++k) {
+    gradient[a.order[k]] = slope[k];
+  }
+}
+
 inline void log_dexterity(const DexterityArguments& a, double* values, double* gradient,
                           double* hessian) {
-  WeightedColumns c(a);
-  const Spectrum<true> s(c.A);
-  int most = 0;
-  int least = 0;
-  summarize(s, values, most, least);
-  if (!(values[1] > DexterityArguments::kSingular * values[0])) {
+  const DexterityState state(a, values);
+  if (!state.regular) {
     return;
   }
-  const EigenAxes axes(a, c, s, most, least);
+  const WeightedColumns& c = state.c;
+  const EigenAxes axes = state.axes(a);
   const SecondDerivative second(c.J, axes.P, a.count);
   Six factor[6];
-  curvature_factors(a, s.lambda, most, least, factor);
+  state.factors(a, factor);
+  write_gradient(a, c.J, axes.P, gradient);
   Rate rates[kMaxDof];
   for (int k = a.first; k < a.count; ++k) {
-    differentiate(c, a.count, k, axes.rows, axes.B, rates[k]);
-    double slope = 0.0;
-    for (int i = 0; i < 6; ++i) {
-      slope += axes.share[i] * rates[k].rate[i][i];
+    Twist dJ[kMaxDof];
+    for (int m = 0; m < a.count; ++m) {
+      dJ[m] = derivative(c.J, m, k);
     }
-    gradient[a.order[k]] = slope;
+    differentiate(c, dJ, a.count, axes.rows, axes.B, rates[k]);
     double row[kMaxDof];
-    bend(a, axes.share, factor, rates, k, row);
+    bend(a.count, axes.share, factor, rates, a.first, k, row);
     for (int l = a.first; l <= k; ++l) {
       const double value = 2.0 * second(c.J, l, k) + row[l];
       hessian[a.order[k] + a.stride * a.order[l]] = value;
       hessian[a.order[l] + a.stride * a.order[k]] = value;
+    }
+  }
+}
+
+/// S z, where S is the symmetric matrix of which `second` gives the entries k <= l.
+inline void apply(const SecondDerivative& second, const Twist* J, const double* z, int first,
+                  int count, double* out) {
+  for (int k = first; k < count; ++k) {
+    out[k] = 0.0;
+  }
+  for (int l = first; l < count; ++l) {
+    for (int k = first; k < l; ++k) {
+      const double entry = second(J, k, l);
+      out[k] += entry * z[l];
+      out[l] += entry * z[k];
+    }
+    out[l] += second(J, l, l) * z[l];
+  }
+}
+
+inline void log_dexterity_along(const DexterityArguments& a, const double* Z, int width,
+                                double* values, double* gradient, double* hessian) {
+  const DexterityState state(a, values);
+  if (!state.regular) {
+    return;
+  }
+  const WeightedColumns& c = state.c;
+  const EigenAxes axes = state.axes(a);
+  const SecondDerivative second(c.J, axes.P, a.count);
+  Six factor[6];
+  state.factors(a, factor);
+  write_gradient(a, c.J, axes.P, gradient);
+  Rate rates[kMaxDof];
+  double z[kMaxDof][kMaxDof];
+  for (int k = 0; k < width; ++k) {
+    for (int m = a.first; m < a.count; ++m) {
+      z[k][m] = Z[a.order[m] + a.stride * k];
+    }
+    Twist dJ[kMaxDof];
+    derivative_along(c.J, z[k], a.first, a.count, dJ);
+    differentiate(c, dJ, a.count, axes.rows, axes.B, rates[k]);
+    double row[kMaxDof];
+    bend(a.count, axes.share, factor, rates, 0, k, row);
+    double bent[kMaxDof];
+    apply(second, c.J, z[k], a.first, a.count, bent);
+    for (int l = 0; l <= k; ++l) {
+      double value = row[l];
+      for (int m = a.first; m < a.count; ++m) {
+        value += 2.0 * bent[m] * z[l][m];
+      }
+      hessian[k + width * l] = value;
+      hessian[l + width * k] = value;
     }
   }
 }

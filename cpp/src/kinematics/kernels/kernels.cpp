@@ -205,6 +205,11 @@ void dexterity(const DexterityArguments& arguments, double* values, double* grad
   log_dexterity(arguments, values, gradient, hessian);
 }
 
+void dexterity_along(const DexterityArguments& arguments, const double* Z, int width,
+                     double* values, double* gradient, double* hessian) noexcept {
+  log_dexterity_along(arguments, Z, width, values, gradient, hessian);
+}
+
 void spectrum(const DexterityArguments& arguments, double* values) noexcept {
   dexterity_spectrum(arguments, values);
 }
@@ -230,7 +235,7 @@ void arc_tangents(const double* sine, const double* cosine, long count, double* 
 }  // namespace
 
 extern const Kernels kKernels;
-const Kernels kKernels{place,          pose,      jacobian, poses,       jacobians,
-                       damped_inverse, dexterity, spectrum, arc_tangents};
+const Kernels kKernels{place,          pose,      jacobian,        poses,    jacobians,
+                       damped_inverse, dexterity, dexterity_along, spectrum, arc_tangents};
 
 }  // namespace thing_kin::THING_KIN_LEVEL

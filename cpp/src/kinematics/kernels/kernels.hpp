@@ -62,6 +62,11 @@ struct Kernels {
   void (*log_dexterity)(const DexterityArguments& arguments, double* values, double* gradient,
                         double* hessian) noexcept;
 
+  /// The same, but the Hessian in the directions of Z only: Z^T H Z (width, width), for Z
+  /// (n, width) in column order with the stride of the arguments.
+  void (*log_dexterity_along)(const DexterityArguments& arguments, const double* Z, int width,
+                              double* values, double* gradient, double* hessian) noexcept;
+
   /// The values alone.
   void (*dexterity_spectrum)(const DexterityArguments& arguments, double* values) noexcept;
 
