@@ -8,4 +8,6 @@ namespace thing_kin::python {
 
 namespace py = pybind11;
 
+void bind_base_localizer(py::module_& m);
+
 }  // namespace thing_kin::python

@@ -5,8 +5,14 @@ covariance. Planar poses are (x, y, theta), their covariances in world axes; twi
 in the body; metres, radians, seconds.
 """
 
-from thing_kin import _estimation
+from thing_kin._estimation import (
+    BaseEstimate,
+    BaseLocalizer,
+    NisStatistics,
+)
 
-__all__: list[str] = []
-
-del _estimation  # whose names come here one by one
+__all__ = [
+    "BaseEstimate",
+    "BaseLocalizer",
+    "NisStatistics",
+]
