@@ -441,7 +441,14 @@ PATH = [
     Argument("PathFollower.push", "pose", POSES[0], follower_with("pose"), moderate=True),
     Argument("PathFollower.push", "base", Q[6:], follower_with("base"), moderate=True),
 ]
+# thing_kin.estimation, one list for each family of concepts.
+FILTERS: list[Argument] = []
+ODOMETRY: list[Argument] = []
+LOCALIZER: list[Argument] = []
 ARGUMENTS = [
+    *FILTERS,
+    *ODOMETRY,
+    *LOCALIZER,
     *POSE_PLAN,
     *TIMING,
     *PROBLEM,
