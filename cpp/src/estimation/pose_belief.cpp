@@ -8,6 +8,7 @@
 
 #include "thing_kin/core/error.hpp"
 #include "thing_kin/linalg/spd.hpp"
+#include "thing_kin/odometry/planar_motion.hpp"
 
 namespace thing_kin {
 
@@ -108,7 +109,8 @@ void PoseBelief::predict(const PlanarStep& step, PoseFilter filter) noexcept {
   const Pose2 end = compose(pose_, se2_exp(step.xi));
   const Pose2 middle = compose(pose_, se2_exp(0.5 * step.xi));
   const Vector2d moved = end.head<2>() - pose_.head<2>();
-  Matrix3d F = carried(moved);
+  const MotionJacobians by = motion_jacobians(pose_, step.xi);
+  Matrix3d F = by.by_pose;
   Matrix3d excess = Matrix3d::Zero();
   Vector2d shift = Vector2d::Zero();
   if (filter == PoseFilter::kUnscented && P_(2, 2) > 0.0) {
@@ -119,12 +121,7 @@ void PoseBelief::predict(const PlanarStep& step, PoseFilter filter) noexcept {
     shift = unscented_shift(even, 3.0);
     excess = unscented_excess(even, 3.0);
   }
-  Matrix3d G = se2_right_jacobian(step.xi);
-  const double c = std::cos(end.z());
-  const double s = std::sin(end.z());
-  Eigen::Matrix2d turn;
-  turn << c, -s, s, c;
-  G.topRows<2>() = (turn * G.topRows<2>()).eval();
+  const Matrix3d& G = by.by_motion;
   P_ = (F * P_ * F.transpose() + G * step.covariance * G.transpose() + excess +
         accumulated(step.noise, moved, end.head<2>() - middle.head<2>()))
            .eval();
