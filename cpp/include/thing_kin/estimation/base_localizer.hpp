@@ -45,8 +45,8 @@ struct LocalizerMeasurement {
   double t_from = 0.0;  ///< of a motion: when it began
   int source = 0;
   std::uint8_t mask = 7;
-  Eigen::Vector3d z;
-  Eigen::Matrix3d R;
+  Eigen::Vector3d z = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   NisBound bound{};  ///< its source's gate when it came
 };
 

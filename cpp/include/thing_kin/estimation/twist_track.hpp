@@ -24,9 +24,9 @@ struct TwistSample {
   double start = -std::numeric_limits<double>::infinity();
   bool first = false;     ///< of its source: what it was before is a guess
   std::uint8_t mask = 7;  ///< bit k: whether entry k of (vx, vy, omega) is measured
-  Twist2 z;
-  Eigen::Matrix3d R;
-  NisBound bound;
+  Twist2 z = Twist2::Zero();
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  NisBound bound{};
   PoseVerdict verdict{true, 0.0, 0};
 };
 
