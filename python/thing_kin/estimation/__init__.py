@@ -5,8 +5,28 @@ covariance. Planar poses are (x, y, theta), their covariances in world axes; twi
 in the body; metres, radians, seconds.
 """
 
-from thing_kin import _estimation
+from thing_kin._estimation import (
+    DeadReckoning,
+    DifferentialDriveOdometry,
+    MecanumIdentification,
+    MecanumOdometry,
+    angles_from_ticks,
+    dead_reckon,
+    identify_mecanum,
+    integrate_twist,
+    integrate_twist_jacobians,
+    pose_difference,
+)
 
-__all__: list[str] = []
-
-del _estimation  # whose names come here one by one
+__all__ = [
+    "DeadReckoning",
+    "DifferentialDriveOdometry",
+    "MecanumIdentification",
+    "MecanumOdometry",
+    "angles_from_ticks",
+    "dead_reckon",
+    "identify_mecanum",
+    "integrate_twist",
+    "integrate_twist_jacobians",
+    "pose_difference",
+]
