@@ -14,4 +14,6 @@ void bind_mecanum(py::module_& m);
 void bind_differential_drive(py::module_& m);
 void bind_identify_mecanum(py::module_& m);
 
+void bind_end_effector(py::module_& m);
+
 }  // namespace thing_kin::python

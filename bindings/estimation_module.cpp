@@ -12,4 +12,6 @@ PYBIND11_MODULE(_estimation, m) {
   bind_mecanum(m);
   bind_differential_drive(m);
   bind_identify_mecanum(m);
+
+  bind_end_effector(m);
 }
