@@ -37,9 +37,7 @@ class Measured:
             return localizer.add_pose(self.t, self.z, self.R, source=self.source)
         if self.kind == "yaw":
             return localizer.add_yaw(self.t, self.z[2], self.R[2, 2], source=self.source)
-        return localizer.add_relative_pose(
-            self.t_from, self.t, self.z, self.R, source=self.source
-        )
+        return localizer.add_relative_pose(self.t_from, self.t, self.z, self.R, source=self.source)
 
 
 def wrap(angle: float) -> float:

@@ -14,18 +14,41 @@ namespace {
 
 constexpr int kMostIterations = 60;
 constexpr int kNoiseIterations = 12;     // after these the noise is taken as known
+constexpr int kMedianIterations = 4;     // before these, outliers are not known
 constexpr double kConvergedStep = 1e-5;  // of a standard deviation
 // A record that leaves more than this of the prior's standard deviation has not shown the value.
 constexpr double kShown = 0.5;
+constexpr double kTurned = 0.5;  // rad: less is no turning
 constexpr double kLeastTravel = 0.1;  // m, of the rims
 constexpr std::size_t kLeastMotions = 4;
 constexpr double kChiSquare95 = 7.8147;  // 3 degrees of freedom
+
+// How far the reference turns in all, as the range of its heading.
+double range_of_heading(const std::vector<ReferenceWindow>& windows) {
+  double heading = 0.0;
+  double least = 0.0;
+  double most = 0.0;
+  for (std::size_t i = 0; i + 1 < windows.size(); ++i) {
+    heading += wrap_angle(windows[i + 1].pose.z() - windows[i].pose.z());
+    least = std::min(least, heading);
+    most = std::max(most, heading);
+  }
+  return most - least;
+}
+
+// Of a robot that only trembles neither k nor the place of the mount can be known, though the
+// trembling of a tracker, or of encoder ticks, may look like it.
+void hold_what_needs_turning(MecanumFit& fit) {
+  if (range_of_heading(fit.windows()) < kTurned) {
+    fit.held[1] = fit.held[2] = fit.held[3] = true;
+  }
+}
 
 bool descend(MecanumFit& fit, int& iterations) {
   for (int i = 0; i < kMostIterations; ++i, ++iterations) {
     fit.linearize();
     if (i < kNoiseIterations) {
-      fit.estimate_noise();
+      fit.estimate_noise(i >= kMedianIterations);
       fit.weigh();
       fit.rescale();
     }
@@ -101,11 +124,11 @@ struct Paths {
   std::vector<Eigen::Vector2d> seen;
 };
 
-Paths paths_of(const MecanumFit& fit) {
+Paths paths_of(const MecanumFit& fit, const WheelPath& wheels) {
   Paths paths;
-  const Pose2 first = fit.wheels().pose_at(fit.windows().front().t);
+  const Pose2 first = wheels.pose_at(fit.windows().front().t);
   for (const ReferenceWindow& window : fit.windows()) {
-    paths.robot.push_back(between(first, fit.wheels().pose_at(window.t)));
+    paths.robot.push_back(between(first, wheels.pose_at(window.t)));
     paths.seen.emplace_back(window.pose.head<2>());
   }
   return paths;
@@ -149,13 +172,18 @@ Pose2 fitted_start(const Pose2& mount, const Paths& paths, bool pinned) {
   return start;
 }
 
-void report_paths(MecanumFit& fit, MecanumIdentification& result) {
+void report_paths(const MecanumFit& fit, MecanumIdentification& result) {
   const Pose2 mount = fit.mount();
-  const Paths paths = paths_of(fit);
+  const Paths paths = paths_of(fit, fit.wheels());
   result.initial_pose = fitted_start(mount, paths, true);
   result.aligned_pose = fitted_start(mount, paths, false);
   result.rms_unaligned = rms_from(result.initial_pose, mount, paths);
   result.rms_aligned = rms_from(result.aligned_pose, mount, paths);
+  WheelPath nominal = fit.wheels();
+  nominal.set(std::exp(fit.prior[0]), std::exp(fit.prior[1]), fit.prior[5]);
+  const Pose2 nominal_mount = fit.prior.segment<3>(2);
+  const Pose2 seen = compose(fit.windows().front().pose, inverse(nominal_mount));
+  result.rms_nominal = rms_from(seen, nominal_mount, paths_of(fit, nominal));
 }
 
 void report_nees(const MecanumFit& fit, MecanumIdentification& result) {
@@ -267,6 +295,7 @@ MecanumIdentification identify_mecanum(std::span<const double> t,
     report(fit, result);
     return result;
   }
+  hold_what_needs_turning(fit);
   fit.guess();
   bool converged = descend(fit, result.iterations);
   for (int i = 0; i < kMecanumParameters && converged && hold_unshown(fit); ++i) {

@@ -26,7 +26,7 @@ class MecanumFit {
 
   /// Windows and motions for the present parameters.
   void linearize();
-  void estimate_noise();
+  void estimate_noise(bool outliers_known);
   void weigh();
   void rescale();
 

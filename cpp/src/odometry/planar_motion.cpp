@@ -37,12 +37,12 @@ void move(PlanarEstimate& estimate, const Twist2& xi, const Eigen::Matrix3d& cov
   estimate.pose = compose(estimate.pose, se2_exp(xi));
 }
 
-void dead_reckon(const PlanarEstimate& start, std::span<const TimedMotion> motions,
-                 const Eigen::Matrix3d& twist_covariance, std::span<PlanarEstimate> out) noexcept {
+void dead_reckon(const PlanarEstimate& start, std::span<const NoisyMotion> motions,
+                 const Eigen::Matrix3d& covariance, std::span<PlanarEstimate> out) noexcept {
   out[0] = start;
   for (std::size_t i = 0; i < motions.size(); ++i) {
     out[i + 1] = out[i];
-    move(out[i + 1], motions[i].xi, twist_covariance * (motions[i].dt * motions[i].dt));
+    move(out[i + 1], motions[i].xi, covariance * motions[i].noise);
   }
 }
 

@@ -102,7 +102,10 @@ RelativeMotion relative_motion(const ReferenceWindow& from, const ReferenceWindo
   motion.error = se2_log(left);
   const Eigen::Matrix3d slope = se2_right_jacobian(motion.error).inverse();
   const Eigen::Matrix3d of_mount = slope * se2_adjoint(mount);
-  const Eigen::Matrix3d back = se2_adjoint(inverse(seen));
+  // By the mount: at the motion that the wheels predict. At the one seen, the reference's noise in
+  // it would pass for turning, and bias the mount (an instrumental variable).
+  const Pose2 predicted = compose(compose(inverse(mount), rolled.pose), mount);
+  const Eigen::Matrix3d back = se2_adjoint(inverse(predicted));
   const Eigen::Matrix3d of_wheels = -slope * se2_adjoint(inverse(left));
   motion.J.col(0) = of_wheels * rolled.sensitivity.col(0);
   motion.J.col(1) = of_wheels * rolled.sensitivity.col(1);

@@ -147,7 +147,9 @@ class LocalizationExperiment:
         >>> print(est.localization_experiment(20.0, rng=0).table().splitlines()[0])
         run      rms [m]  end [m]  end [% of way]  rms heading [rad]  mean NEES  below 95 %
         """
-        lines = ["run      rms [m]  end [m]  end [% of way]  rms heading [rad]  mean NEES  below 95 %"]
+        lines = [
+            "run      rms [m]  end [m]  end [% of way]  rms heading [rad]  mean NEES  below 95 %"
+        ]
         for name, run in self.runs.items():
             end = run.position_error[-1]
             rms = np.sqrt((run.position_error**2).mean())

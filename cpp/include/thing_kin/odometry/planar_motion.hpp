@@ -32,15 +32,16 @@ MotionJacobians motion_jacobians(const Pose2& pose, const Twist2& xi) noexcept;
 /// Moves the estimate by a motion with its own covariance, independent of the estimate's.
 void move(PlanarEstimate& estimate, const Twist2& xi, const Eigen::Matrix3d& covariance) noexcept;
 
-/// One row of a record: a motion and how long it took, s. A twist's covariance R enters as R dt^2.
-struct TimedMotion {
+/// One row of a record: a motion, and by what a common covariance is multiplied to give its own:
+/// dt^2 for that of a twist, the way travelled for a variance that is given for each metre.
+struct NoisyMotion {
   Twist2 xi = Twist2::Zero();
-  double dt = 0.0;
+  double noise = 0.0;
 };
 
 /// Dead reckoning: out[0] is the start, out[i + 1] follows from motions[i]; their errors are
 /// independent. `out` is longer by one than `motions`.
-void dead_reckon(const PlanarEstimate& start, std::span<const TimedMotion> motions,
-                 const Eigen::Matrix3d& twist_covariance, std::span<PlanarEstimate> out) noexcept;
+void dead_reckon(const PlanarEstimate& start, std::span<const NoisyMotion> motions,
+                 const Eigen::Matrix3d& covariance, std::span<PlanarEstimate> out) noexcept;
 
 }  // namespace thing_kin
