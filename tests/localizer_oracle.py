@@ -1,10 +1,10 @@
 """The localizer's model in plain numpy: the whole record at once, nothing kept, nothing clever."""
 
+import cmath
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import expm
 from scipy.stats import chi2
 
 from thing_kin import estimation as est
@@ -49,10 +49,13 @@ def rot(theta: float) -> Array:
 
 
 def moved(pose: Array, xi: Array) -> Array:
-    """The pose after the motion xi, by the matrix exponential."""
-    A = np.array([[0, -xi[2], xi[0]], [xi[2], 0, xi[1]], [0, 0, 0]])
-    step = expm(A)[:2, 2]
-    return np.array([*(pose[:2] + rot(pose[2]) @ step), pose[2] + xi[2]])
+    """The pose after the motion xi: in the complex plane, v (exp(i w) - 1)/(i w) is the way."""
+    x, y, theta = pose
+    vx, vy, w = xi
+    turn = 1j * w
+    mean = 1 + turn / 2 + turn**2 / 6 + turn**3 / 24 if abs(w) < 1e-4 else cmath.exp(turn) - 1
+    step = cmath.exp(1j * theta) * (vx + 1j * vy) * (mean if abs(w) < 1e-4 else mean / turn)
+    return np.array([x + step.real, y + step.imag, theta + w])
 
 
 def seen(past: Array, pose: Array) -> Array:
@@ -60,13 +63,9 @@ def seen(past: Array, pose: Array) -> Array:
 
 
 def numeric(f, x: Array, h: float = 1e-5) -> Array:
-    """Central differences of fourth order."""
-    columns = []
-    for k in range(len(x)):
-        d = np.zeros(len(x))
-        d[k] = h
-        columns.append((8 * (f(x + d) - f(x - d)) - (f(x + 2 * d) - f(x - 2 * d))) / (12 * h))
-    return np.stack(columns, axis=1)
+    """Central differences."""
+    steps = h * np.eye(len(x))
+    return np.stack([(f(x + d) - f(x - d)) / (2 * h) for d in steps], axis=1)
 
 
 def linearized(f, x: Array, P: Array, filter: str) -> tuple[Array, Array, Array]:
@@ -170,10 +169,10 @@ class Oracle:
         weights = np.zeros((len(rows), len(rows)))
         scale = np.zeros_like(weights)
         for p, (i, k) in enumerate(rows):
-            for q, (j, l) in enumerate(rows):
+            for q, (j, n) in enumerate(rows):
                 if i == j:
-                    weights[p, q] = said[i][1].R[k, l] * said[i][2]
-                    scale[p, q] = said[i][1].R[k, l] * said[i][3]
+                    weights[p, q] = said[i][1].R[k, n] * said[i][2]
+                    scale[p, q] = said[i][1].R[k, n] * said[i][3]
         W = np.linalg.inv(weights)
         gain = np.linalg.pinv(H.T @ W @ H) @ H.T @ W
         return gain @ values, gain @ scale @ gain.T

@@ -53,12 +53,12 @@ def bits(localizer: est.BaseLocalizer, times) -> bytes:
 @pytest.mark.parametrize("seed", range(3))
 def test_it_is_the_textbook_s_filter(filter: str, seed: int) -> None:
     rng = np.random.default_rng(seed)
-    record = placed(drawn(rng, 2.0))
-    outlier = Measured("pose", 1.5, "lidar", np.array([9.0, 9, 0]), 1e-3 * I3)
+    record = placed(drawn(rng, 1.25))
+    outlier = Measured("pose", 1.0, "lidar", np.array([9.0, 9, 0]), 1e-3 * I3)
     record.append(outlier)
     options = {} if seed else {"t": 0.0}
     localizer = localizer_for(record, filter, **options)
-    for until in (0.5, 1.3, 2.0, 2.0 + 1 / 64, 4.0):
+    for until in (1.1, 1.25, 2.0):
         oracle = Oracle(np.array([1.0, -2.0, 3.0]), P0, Q0, filter, t0=options.get("t"))
         oracle.run(record, until)
         e = localizer.estimate(until)
@@ -118,16 +118,18 @@ def test_several_twists_weigh_by_their_noise() -> None:
     )
     localizer.source("fast", fuse=["vx"])
     localizer.source("slow", fuse=["vx", "vy"])
+    for name in ("fast", "slow", "gyro"):  # from here on
+        localizer.add_twist(0.0, (0, 0, 0), I3, source=name)
     fast = [1.0, 1.2, 0.9, 1.3]
     for k, vx in enumerate(fast):
         localizer.add_twist((k + 1) / 4, (vx, 9.0, 9.0), 4e-3 * I3, source="fast")
     localizer.add_twist(1.0, (1.4, 0.2, 9.0), 2e-3 * I3, source="slow")
-    localizer.add_yaw_rate(1.0, 0.0, 1e-4, source="gyro")
+    localizer.add_yaw_rate(1.0, 0.0, 1e-12, source="gyro")
     e = localizer.estimate()
     # The mean of four has 1e-3, the other 2e-3.
     np.testing.assert_allclose(e.pose, [(2 * np.mean(fast) + 1.4) / 3, 0.2, 0.0], atol=1e-12)
     np.testing.assert_allclose(np.diag(e.covariance)[:1], [2e-3 / 3], rtol=1e-9)
-    np.testing.assert_allclose(e.covariance[2, 2], 1e-4, rtol=1e-9)
+    np.testing.assert_allclose(e.covariance[2, 2], 1e-12, rtol=1e-9)
 
 
 def test_a_dead_source_gives_way_to_a_live_one() -> None:
@@ -183,7 +185,7 @@ def test_no_jump_at_pi(filter: str) -> None:
     start = est.BaseLocalizer((1.0, -2.0, 3.0 - 2 * np.pi), P0, process_noise=Q0, filter=filter)
     for m in placed(record):
         if m.kind in ("pose", "yaw"):
-            m = Measured(m.kind, m.t, m.source, m.z + [0, 0, 4 * np.pi], m.R, 0.0, m.rows)
+            m = Measured(m.kind, m.t, m.source, m.z + 4 * np.pi * I3[2], m.R, 0.0, m.rows)
         m.give(start)
     np.testing.assert_allclose(start.estimate().pose, turned.pose, atol=1e-12)
     np.testing.assert_allclose(start.estimate().covariance, turned.covariance, rtol=1e-9)

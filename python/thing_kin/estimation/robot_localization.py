@@ -293,7 +293,7 @@ def _config(parameters: dict[str, Any], name: str) -> set[str]:
 
 
 def _gate(parameters: dict[str, Any], name: str, part: str, dof: int) -> float | None:
-    """A Mahalanobis distance as the probability to be nearer."""
+    """Turn a Mahalanobis distance into the probability to be nearer."""
     key = f"{name}_{part}_rejection_threshold"
     if key not in parameters and not name.startswith(("odom", "imu")):
         key = f"{name}_rejection_threshold"
@@ -348,6 +348,6 @@ def _numbers(parameters: dict[str, Any], key: str, *counts: int) -> NDArray[np.f
 
 
 def _matrix(parameters: dict[str, Any], key: str) -> NDArray[np.float64]:
-    """Fifteen by fifteen, or its diagonal."""
+    """Read fifteen by fifteen numbers, or a diagonal."""
     numbers = _numbers(parameters, key, 225, 15)
     return np.diag(numbers) if len(numbers) == 15 else numbers.reshape(15, 15)

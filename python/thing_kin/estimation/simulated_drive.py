@@ -21,12 +21,12 @@ __all__ = [
 Array = NDArray[np.float64]
 
 # What is wrong with the sensors. Wheels: shares of the speed that slip takes, for some seconds;
-# scale errors for good; noise of a sample. LIDAR odometry: noise of a match, and a drift that lasts.
-SLIP, SLIP_SECONDS = np.array([0.03, 0.10, 0.06]), 2.0
+# scale errors for good; noise of a sample. LIDAR odometry: noise of a match, a lasting drift.
+SLIP, SLIP_SECONDS = np.array([0.02, 0.06, 0.01]), 2.0
 WHEEL_BIAS = np.array([0.003, -0.004, 0.002])
 WHEEL_NOISE = np.array([0.01, 0.02, 0.01])  # m/s, m/s, rad/s
 SCAN_NOISE = np.array([0.003, 0.003, 0.0006])  # m, m, rad a match
-SCAN_DRIFT, SCAN_DRIFT_SECONDS = np.array([0.003, 0.003, 0.0004]), 5.0  # m/s, m/s, rad/s
+SCAN_DRIFT, SCAN_DRIFT_SECONDS = np.array([0.003, 0.003, 0.0006]), 5.0  # m/s, m/s, rad/s
 
 
 @dataclass(frozen=True)
@@ -237,8 +237,8 @@ def localization_experiment(
 ) -> LocalizationExperiment:
     """Localize a simulated drive by wheels alone, by LIDAR odometry alone, and by both: [M17] 6.1.
 
-    The thesis's figures 6.1 and 6.2, "Simulated localization", are empty; this is what they were to
-    show, by (3.24), (3.25): that the fused estimate is better than either, and knows how good it is.
+    Figures 6.1 and 6.2 of [M17], "Simulated localization", are empty. They were to show that what
+    (3.24) and (3.25) fuse is better than either source alone, and how sure it is.
 
     Parameters
     ----------
@@ -321,7 +321,7 @@ def _scans(
 
 
 def _mean_twist(motion: Array) -> Array:
-    """The logarithm of a small planar motion."""
+    """Take the logarithm of a small planar motion."""
     half = motion[2] / 2
     scale = half / np.tan(half) if abs(half) > 1e-6 else 1 - half**2 / 3
     x, y = motion[:2]
