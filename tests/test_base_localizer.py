@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from scipy.stats import chi2
 
 from localizer_oracle import Measured, Oracle, at_other_times, drawn, moved, rot, seen, wrap
+from soak_localizer import soak
 from thing_kin import estimation as est
 
 FILTERS = ("ekf", "ukf")
@@ -483,3 +484,11 @@ def test_asking_before_the_first() -> None:
         localizer.estimate(4.9)
     localizer.add_pose(4.0, (0, 0, 0), I3, source="lidar")  # the first, after all
     assert localizer.estimate(4.5).t == 4.5
+
+
+# A short form of soak_localizer.py
+
+
+@pytest.mark.parametrize("filter", FILTERS)
+def test_a_short_soak(filter: str) -> None:
+    soak(800, 1, filter)
