@@ -12,7 +12,6 @@ namespace thing_kin {
 namespace {
 
 using Eigen::Matrix3d;
-using Kind = LocalizerMeasurement::Kind;
 
 Matrix3d checked_belief(const Matrix3d& P, const std::string& name) {
   check_covariance(P, 3, name);
@@ -113,7 +112,7 @@ double BaseLocalizer::origin() const noexcept {
 }
 
 bool BaseLocalizer::add(const LocalizerMeasurement& measurement) {
-  const bool motion = measurement.kind == Kind::kRelative;
+  const bool motion = measurement.kind == MeasurementKind::kRelative;
   const double oldest = motion ? measurement.t_from : measurement.t;
   const double latest = std::max(measurement.t, latest_.value_or(measurement.t));
   LocalizerSource& from = sources_[static_cast<std::size_t>(measurement.source)];
@@ -122,7 +121,7 @@ bool BaseLocalizer::add(const LocalizerMeasurement& measurement) {
     return false;
   }
   std::size_t first = 0;
-  if (measurement.kind == Kind::kTwist) {
+  if (measurement.kind == MeasurementKind::kTwist) {
     const double affected = insert_sample(measurement);
     first = insert(measurement, 0);
     const auto after = std::ranges::upper_bound(
@@ -130,7 +129,7 @@ bool BaseLocalizer::add(const LocalizerMeasurement& measurement) {
     first = std::min(first, static_cast<std::size_t>(after - record_.begin()));
   } else if (motion) {
     LocalizerMeasurement clone = measurement;
-    clone.kind = Kind::kClone;
+    clone.kind = MeasurementKind::kClone;
     std::swap(clone.t, clone.t_from);
     insert(measurement, next_id_);
     first = insert(clone, next_id_++);
@@ -147,8 +146,8 @@ bool BaseLocalizer::add(const LocalizerMeasurement& measurement) {
 // equal orders.
 bool BaseLocalizer::before(const LocalizerMeasurement& a,
                            const LocalizerMeasurement& b) const noexcept {
-  if (a.t != b.t || (a.kind != b.kind && (std::min(a.kind, b.kind) == Kind::kTwist ||
-                                          std::max(a.kind, b.kind) == Kind::kClone))) {
+  if (a.t != b.t || (a.kind != b.kind && (std::min(a.kind, b.kind) == MeasurementKind::kTwist ||
+                                          std::max(a.kind, b.kind) == MeasurementKind::kClone))) {
     return a.t != b.t ? a.t < b.t : a.kind < b.kind;
   }
   if (a.source != b.source) {
@@ -233,7 +232,7 @@ void BaseLocalizer::fold() {
     if (!begin_) {
       begin_ = m.t;
     }
-    if (m.kind == Kind::kTwist) {
+    if (m.kind == MeasurementKind::kTwist) {
       TwistSample& sample = from.track.samples.front();
       sample.start = std::max(sample.start, *begin_);
       from.folded.add(sample.verdict, true);
@@ -242,7 +241,7 @@ void BaseLocalizer::fold() {
         from.track.held = sample;
       }
       from.track.samples.pop_front();
-    } else if (m.kind != Kind::kClone) {
+    } else if (m.kind != MeasurementKind::kClone) {
       from.folded.add(step.verdict, false);
     }
     base_ = std::move(step.belief);
@@ -277,7 +276,8 @@ std::map<std::string, SourceCounts> BaseLocalizer::counts() const {
     }
   }
   for (const Step& step : record_) {
-    if (step.measurement.kind != Kind::kTwist && step.measurement.kind != Kind::kClone) {
+    if (step.measurement.kind != MeasurementKind::kTwist &&
+        step.measurement.kind != MeasurementKind::kClone) {
       all[source_at(step.measurement.source).name].add(step.verdict, false);
     }
   }

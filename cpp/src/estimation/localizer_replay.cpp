@@ -9,8 +9,6 @@
 
 namespace thing_kin {
 
-using Kind = LocalizerMeasurement::Kind;
-
 void BaseLocalizer::set_cursors(double a, Cursors& cursors) const {
   cursors.resize(sources_.size());
   for (std::size_t i = 0; i < sources_.size(); ++i) {
@@ -62,16 +60,16 @@ void BaseLocalizer::advance(PoseBelief& belief, const Cursors& cursors, double a
 
 void BaseLocalizer::apply(Step& step, PoseBelief& belief) const {
   const LocalizerMeasurement& m = step.measurement;
-  if (m.kind == Kind::kTwist) {
+  if (m.kind == MeasurementKind::kTwist) {
     return;  // it moves the pose; see advance()
   }
-  if (m.kind == Kind::kClone) {
+  if (m.kind == MeasurementKind::kClone) {
     step.verdict.accepted = belief.clone(step.id);
     return;
   }
   const auto rows = static_cast<std::size_t>(std::popcount(m.mask));
   const PoseMeasurement measured{m.z, m.R, m.mask, m.bound[rows]};
-  if (m.kind == Kind::kRelative) {
+  if (m.kind == MeasurementKind::kRelative) {
     step.verdict = belief.update_relative(step.id, measured, options_.filter);
     belief.forget(step.id);
   } else {

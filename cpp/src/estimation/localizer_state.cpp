@@ -56,125 +56,125 @@ class StateReader {
 
 template <typename Archive, typename T>
   requires std::is_arithmetic_v<T> || std::is_enum_v<T>
-void exchange(Archive& archive, T& value) {
+void pass(Archive& archive, T& value) {
   archive.raw(value);
 }
 
 template <typename Archive, int N, int M>
-void exchange(Archive& archive, Eigen::Matrix<double, N, M>& matrix) {
+void pass(Archive& archive, Eigen::Matrix<double, N, M>& matrix) {
   for (Eigen::Index i = 0; i < matrix.size(); ++i) {
     archive.raw(matrix.data()[i]);
   }
 }
 
 template <typename Archive>
-void exchange(Archive& archive, PoseVerdict& verdict) {
-  exchange(archive, verdict.accepted);
-  exchange(archive, verdict.nis);
-  exchange(archive, verdict.dof);
+void pass(Archive& archive, PoseVerdict& verdict) {
+  pass(archive, verdict.accepted);
+  pass(archive, verdict.nis);
+  pass(archive, verdict.dof);
 }
 
 template <typename Archive>
-void exchange(Archive& archive, NisBound& bound) {
+void pass(Archive& archive, NisBound& bound) {
   for (double& each : bound) {
     archive.raw(each);
   }
 }
 
 template <typename Archive>
-void exchange(Archive& archive, TwistSample& s) {
-  exchange(archive, s.t);
-  exchange(archive, s.start);
-  exchange(archive, s.first);
-  exchange(archive, s.mask);
-  exchange(archive, s.z);
-  exchange(archive, s.R);
-  exchange(archive, s.bound);
-  exchange(archive, s.verdict);
+void pass(Archive& archive, TwistSample& s) {
+  pass(archive, s.t);
+  pass(archive, s.start);
+  pass(archive, s.first);
+  pass(archive, s.mask);
+  pass(archive, s.z);
+  pass(archive, s.R);
+  pass(archive, s.bound);
+  pass(archive, s.verdict);
 }
 
 template <typename Archive>
-void exchange(Archive& archive, LocalizerMeasurement& m) {
-  exchange(archive, m.kind);
-  exchange(archive, m.t);
-  exchange(archive, m.t_from);
-  exchange(archive, m.source);
-  exchange(archive, m.mask);
-  exchange(archive, m.z);
-  exchange(archive, m.R);
-  exchange(archive, m.bound);
+void pass(Archive& archive, LocalizerMeasurement& m) {
+  pass(archive, m.kind);
+  pass(archive, m.t);
+  pass(archive, m.t_from);
+  pass(archive, m.source);
+  pass(archive, m.mask);
+  pass(archive, m.z);
+  pass(archive, m.R);
+  pass(archive, m.bound);
 }
 
 template <typename Archive>
-void exchange(Archive& archive, NisStatistics& s) {
-  exchange(archive, s.count);
-  exchange(archive, s.sum);
-  exchange(archive, s.dof);
-  exchange(archive, s.within);
+void pass(Archive& archive, NisStatistics& s) {
+  pass(archive, s.count);
+  pass(archive, s.sum);
+  pass(archive, s.dof);
+  pass(archive, s.within);
 }
 
 template <typename Archive>
-void exchange(Archive& archive, SourceCounts& counts) {
-  exchange(archive, counts.accepted);
-  exchange(archive, counts.rejected);
-  exchange(archive, counts.poses);
-  exchange(archive, counts.twists);
+void pass(Archive& archive, SourceCounts& counts) {
+  pass(archive, counts.accepted);
+  pass(archive, counts.rejected);
+  pass(archive, counts.poses);
+  pass(archive, counts.twists);
 }
 
 template <typename Archive, typename T>
-void exchange(Archive& archive, std::optional<T>& value) {
+void pass(Archive& archive, std::optional<T>& value) {
   bool there = value.has_value();
-  exchange(archive, there);
+  pass(archive, there);
   if (there) {
     if (!value) {
       value.emplace();
     }
-    exchange(archive, *value);
+    pass(archive, *value);
   }
 }
 
-// Sequences of what exchange() knows.
+// Sequences of what pass() knows.
 template <typename Archive, typename Sequence>
-void exchange_all(Archive& archive, Sequence& sequence) {
+void pass_all(Archive& archive, Sequence& sequence) {
   std::uint64_t size = sequence.size();
-  exchange(archive, size);
+  pass(archive, size);
   if constexpr (Archive::kReads) {
     sequence.clear();
     for (std::uint64_t i = 0; i < size; ++i) {
       sequence.push_back({});
-      exchange(archive, sequence.back());
+      pass(archive, sequence.back());
     }
   } else {
     for (auto& each : sequence) {
-      exchange(archive, each);
+      pass(archive, each);
     }
   }
 }
 
 template <typename Archive>
-void exchange(Archive& archive, LocalizerSource& source) {
-  exchange_all(archive, source.name);
-  exchange(archive, source.fuse);
-  exchange(archive, source.covariance);
-  exchange(archive, source.gate);
-  exchange(archive, source.gates_twists);
-  exchange(archive, source.bound);
-  exchange_all(archive, source.track.samples);
-  exchange(archive, source.track.held);
-  exchange(archive, source.track.folded_stamp);
-  exchange(archive, source.folded);
-  exchange(archive, source.refused);
+void pass(Archive& archive, LocalizerSource& source) {
+  pass_all(archive, source.name);
+  pass(archive, source.fuse);
+  pass(archive, source.covariance);
+  pass(archive, source.gate);
+  pass(archive, source.gates_twists);
+  pass(archive, source.bound);
+  pass_all(archive, source.track.samples);
+  pass(archive, source.track.held);
+  pass(archive, source.track.folded_stamp);
+  pass(archive, source.folded);
+  pass(archive, source.refused);
 }
 
 template <typename Archive>
-void exchange(Archive& archive, BaseLocalizerOptions& o) {
-  exchange(archive, o.pose);
-  exchange(archive, o.covariance);
-  exchange(archive, o.gate);
-  exchange(archive, o.process_noise);
-  exchange(archive, o.history);
-  exchange(archive, o.t);
-  exchange(archive, o.filter);
+void pass(Archive& archive, BaseLocalizerOptions& o) {
+  pass(archive, o.pose);
+  pass(archive, o.covariance);
+  pass(archive, o.gate);
+  pass(archive, o.process_noise);
+  pass(archive, o.history);
+  pass(archive, o.t);
+  pass(archive, o.filter);
 }
 
 }  // namespace
@@ -182,24 +182,24 @@ void exchange(Archive& archive, BaseLocalizerOptions& o) {
 // What stands in the state, in this order.
 template <typename Archive>
 void BaseLocalizer::exchange_state(Archive& archive) {
-  exchange(archive, options_);
-  exchange_all(archive, sources_);
+  pass(archive, options_);
+  pass_all(archive, sources_);
   std::vector<double> belief = base_.numbers();
-  exchange_all(archive, belief);
+  pass_all(archive, belief);
   base_ = PoseBelief::from_numbers(belief);
-  exchange(archive, base_time_);
-  exchange(archive, begin_);
-  exchange(archive, latest_);
-  exchange(archive, next_id_);
+  pass(archive, base_time_);
+  pass(archive, begin_);
+  pass(archive, latest_);
+  pass(archive, next_id_);
   std::uint64_t size = record_.size();
-  exchange(archive, size);
+  pass(archive, size);
   for (std::uint64_t k = 0; k < size; ++k) {
     if (k == record_.size()) {
       record_.push_back(Step{{}, 0, {}, base_});
     }
-    exchange(archive, record_[k].measurement);
-    exchange(archive, record_[k].id);
-    exchange(archive, record_[k].verdict);
+    pass(archive, record_[k].measurement);
+    pass(archive, record_[k].id);
+    pass(archive, record_[k].verdict);
   }
 }
 

@@ -50,6 +50,8 @@ struct LocalizerMeasurement {
   NisBound bound{};  ///< its source's gate when it came
 };
 
+using MeasurementKind = LocalizerMeasurement::Kind;
+
 /// Fuses what any number of named sources say of a planar base, in whatever order it comes.
 ///
 /// A record of the last seconds is kept in order of time, with the belief after each measurement;
