@@ -8,4 +8,13 @@ namespace thing_kin::python {
 
 namespace py = pybind11;
 
+void bind_planar_motion(py::module_& m);
+void bind_encoder(py::module_& m);
+void bind_mecanum(py::module_& m);
+void bind_differential_drive(py::module_& m);
+void bind_identify_mecanum(py::module_& m);
+
+void bind_end_effector(py::module_& m);
+void bind_base_localizer(py::module_& m);
+
 }  // namespace thing_kin::python

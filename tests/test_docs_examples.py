@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import thing_kin as tk
+from thing_kin import estimation
 
 ROOT = Path(__file__).parent.parent
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -52,7 +53,8 @@ def test_the_table_leads_to(row: list[str]) -> None:
     for header in headers:
         assert (ROOT / "cpp/include/thing_kin" / header).is_file(), header
     for name in python:
-        owner, path = (tk.Chain, name[1:]) if name.startswith(".") else (tk, name.split(".", 1)[1])
+        prefix, _, path = name.partition(".")  # of `tk.ik`, `est.KalmanFilter`, `.fk`
+        owner = {"": tk.Chain, "est": estimation}.get(prefix, tk)
         if not path.startswith("kdl."):  # an extension of its own, which a build may lack
             assert callable(reduce(getattr, path.split("."), owner)), name
     for test in tests:

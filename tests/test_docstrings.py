@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import pytest
 
 import thing_kin as tk
-from thing_kin import interop, kdl, lie, robots, terms
+from thing_kin import estimation, interop, kdl, lie, robots, terms
 
-MODULES = (tk, lie, robots, terms, kdl, interop)
+MODULES = (tk, lie, robots, terms, kdl, interop, estimation)
 
 
 def public_things() -> Iterator[tuple[str, object]]:
@@ -33,7 +33,7 @@ def class_and_members(path: str, thing: type) -> Iterator[tuple[str, object]]:
 
 THINGS = dict(public_things())
 PROPERTIES = {path for path, thing in THINGS.items() if isinstance(thing, property)}
-MODULES_ALONE = {lie.__name__, robots.__name__, terms.__name__, kdl.__name__}
+MODULES_ALONE = {module.__name__ for module in (lie, robots, terms, kdl, estimation)}
 WITH_EXAMPLES = sorted(set(THINGS) - PROPERTIES - MODULES_ALONE)
 
 

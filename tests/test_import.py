@@ -38,12 +38,21 @@ def test_it_loads_numpy_only() -> None:
         "thing_kin.kdl",
         "thing_kin._urdf",
         "thing_kin._ceres",
+        "thing_kin._estimation",
+        "thing_kin.estimation",
     ):
         assert heavy not in loaded
 
 
 def test_kdl_is_loaded_on_demand() -> None:
     assert "thing_kin._kdl" in modules_after("import thing_kin.kdl")
+
+
+def test_estimation_is_loaded_on_demand() -> None:
+    loaded = modules_after("from thing_kin import estimation as est")
+    assert "thing_kin._estimation" in loaded
+    assert "yaml" not in loaded
+    assert foreign(loaded) == foreign(modules_after("import thing_kin, numpy, numpy.typing"))
 
 
 def test_ceres_is_loaded_on_demand() -> None:

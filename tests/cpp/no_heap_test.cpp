@@ -11,6 +11,7 @@
 
 #include "random_chain.hpp"
 #include "thing_kin/core/simd.hpp"
+#include "thing_kin/estimation/pose_belief.hpp"
 #include "thing_kin/inverse/numeric_ik.hpp"
 #include "thing_kin/inverse/task_priority.hpp"
 #include "thing_kin/kinematics/acceleration.hpp"
@@ -111,6 +112,19 @@ TEST(NoHeap, Clearances) {
             }),
             0);
   EXPECT_NEAR(sum, 0.0, 1e-9);
+}
+
+TEST(NoHeap, PoseBelief) {
+  PoseBelief belief(Pose2(1.0, 2.0, 3.0), Eigen::Matrix3d::Identity());
+  const PlanarStep step{Twist2(0.1, 0.0, 0.2), Eigen::Matrix3d::Identity() * 1e-3,
+                        Eigen::Matrix3d::Identity() * 1e-4};
+  const PoseMeasurement measured{Pose2(1.0, 2.0, -3.0), Eigen::Matrix3d::Identity(), 5, 16.0};
+  EXPECT_EQ(allocations_in([&] {
+              belief.predict(step, PoseFilter::kExtended);
+              belief.predict(step, PoseFilter::kUnscented);
+              EXPECT_TRUE(belief.update(measured).accepted);
+            }),
+            0);
 }
 
 // Misuse is found before the loop: what a control loop calls throws nothing and allocates nothing,
