@@ -45,6 +45,19 @@ def test_the_hessian_is_exact() -> None:
     assert np.abs(near.x - best).max() < 1e-5
 
 
+def test_names_of_clearances_say_what_is_near_what() -> None:
+    robot = tk.robots.thing()
+    problem = tk.Problem(robot)
+    discs = [tk.Disc(center=(2.0, 0.0), radius=0.5), tk.Disc(center=(0.0, 0.3), radius=0.5)]
+    problem.at_least(tk.terms.Clearance(obstacles=discs), 0.0)
+    assert problem.constraint_names == (
+        "clearance[0] (the base and obstacle 0)",
+        "clearance[1] (the base and obstacle 1)",
+    )
+    at = problem.evaluate(np.zeros(robot.dof))
+    assert list(at.violations) == ["clearance[1] (the base and obstacle 1)"]
+
+
 def test_constraints_keep_their_order_and_names() -> None:
     problem = tk.Problem(n=3)
     problem.equal(SQUARES, (0.25, 4.0))

@@ -67,11 +67,13 @@ Problem::Problem(std::shared_ptr<const Chain> robot)
 std::string Problem::row_name(Eigen::Index row) const {
   const auto above = [&](const Constraint& constraint) { return constraint.row > row; };
   const Constraint& constraint = *std::prev(std::ranges::find_if(constraints_, above));
-  return constraint.lower.size() == 1 ? constraint.name
-                                      : std::string(constraint.name)
-                                            .append("[")
-                                            .append(std::to_string(row - constraint.row))
-                                            .append("]");
+  const Eigen::Index entry = row - constraint.row;
+  std::string name = constraint.name;
+  if (constraint.lower.size() > 1) {
+    name.append("[").append(std::to_string(entry)).append("]");
+  }
+  const std::string about = constraint.term->describe(static_cast<int>(entry));
+  return about.empty() ? name : name.append(" (").append(about).append(")");
 }
 
 void Problem::minimize(std::shared_ptr<const Term> term, double weight) {

@@ -14,6 +14,7 @@ class ClearanceTerm : public RobotTerm {
 
   std::string name() const override { return "clearance"; }
   int size() const override { return clearances_.size(); }
+  std::string describe(int entry) const override { return clearances_.describe(entry); }
 
   bool evaluate(const VectorView& x, Eigen::Ref<Eigen::VectorXd> value,
                 Eigen::MatrixXd* J) const override {

@@ -61,6 +61,8 @@ class Problem {
   int rows() const { return static_cast<int>(row_lower_.size()); }
   const Eigen::VectorXd& row_lower() const { return row_lower_; }
   const Eigen::VectorXd& row_upper() const { return row_upper_; }
+
+  /// "pose[2]", "clearance[11] (sphere 2 (forearm) and obstacle 0)".
   std::string row_name(Eigen::Index row) const;
 
   /// Throws InvalidArgument: a term of another number of variables, a weight that is not finite.

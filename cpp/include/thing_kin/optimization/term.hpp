@@ -23,6 +23,9 @@ class Term {
   /// For messages and traces: "pose", "base_distance".
   virtual std::string name() const = 0;
 
+  /// What one of its numbers is about, in words: "sphere 2 (forearm) and obstacle 0"; else empty.
+  virtual std::string describe(int /*entry*/) const { return {}; }
+
   /// How many numbers it gives.
   virtual int size() const = 0;
 
