@@ -284,7 +284,7 @@ def _config(parameters: dict[str, Any], name: str) -> set[str]:
     if len(flags) != 15 or not all(isinstance(flag, bool) for flag in flags):
         raise ValueError(f"{key}: got {len(flags)} entries, expected 15 booleans")
     wanted = {variable for variable, flag in zip(VARIABLES, flags, strict=True) if flag}
-    lost = [v for v in ("ax", "ay") if v in wanted]
+    lost: list[str] = [v for v in ("ax", "ay") if v in wanted]
     if not parameters.get("two_d_mode", False):
         lost += [v for v in VARIABLES if v in wanted and v not in PLANAR and v not in lost]
     if lost:
