@@ -471,16 +471,6 @@ def heard(method: str, name: str) -> Callable[[Any], Any]:
     return call
 
 
-def heard_number(method: str) -> Callable[[Any], Any]:
-    def call(value: Any) -> np.ndarray:
-        localizer = fresh()
-        localizer.source("it", covariance=0.2)
-        getattr(localizer, method)(1.0, 0.1, value, source="it")
-        return numbers(localizer)
-
-    return call
-
-
 def started(name: str) -> Callable[[Any], Any]:
     return lambda value: numbers(est.BaseLocalizer(**{name: value}, t=0.0))
 
@@ -519,10 +509,6 @@ LOCALIZER = [
             ("add_relative_pose", "motion"),
         )
         for name, good in ((value, 0.1 * XI[3:]), ("covariance", np.eye(3)))
-    ),
-    *(
-        Argument(f"BaseLocalizer.{method}", "variance", np.array(0.3), heard_number(method))
-        for method in ("add_yaw", "add_yaw_rate")
     ),
     Argument("BaseLocalizer.source", "covariance", np.eye(3), declared),
     *(

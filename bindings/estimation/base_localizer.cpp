@@ -242,7 +242,7 @@ Examples
 >>> est.BaseLocalizer(pose=(1, 2, 0.5), t=0.0).estimate().pose
 array([1. , 2. , 0.5])
 )")
-      .def_readonly("t", &BaseEstimate::t, "s.")
+      .def_readonly("t", &BaseEstimate::t, "Time of the estimate, s.")
       .def_property_readonly(
           "pose", [](const BaseEstimate& e) { return array_of(e.pose); },
           "(3,): x, y, theta in m and rad, theta in (-pi, pi].")
@@ -274,7 +274,7 @@ Examples
 >>> localizer = est.BaseLocalizer(covariance=np.eye(3))
 >>> localizer.add_pose(0.0, (1.0, 0.0, 0.0), np.eye(3), source="lidar")
 True
->>> localizer.nis["lidar"].mean, localizer.nis["lidar"].dof
+>>> round(localizer.nis["lidar"].mean, 9), localizer.nis["lidar"].dof
 (0.5, 3.0)
 )")
       .def_readonly("count", &NisStatistics::count,
@@ -703,7 +703,8 @@ Examples
       .def_property_readonly("latest", &BaseLocalizer::latest,
                              "Time of the latest measurement, s; None before the first.")
       .def_property_readonly(
-          "history", [](const BaseLocalizer& self) { return self.options().history; }, "s.")
+          "history", [](const BaseLocalizer& self) { return self.options().history; },
+          "How late a measurement may come, s.")
       .def("__len__", &BaseLocalizer::record_size)
       .def("__repr__",
            [](const BaseLocalizer& self) {

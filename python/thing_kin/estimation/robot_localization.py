@@ -65,9 +65,9 @@ class RosSource:
     name: str
     topic: str
     fuse: tuple[str, ...]
-    gate: float | None = None
-    differential: bool = False
-    relative: bool = False
+    gate: float | None = field(default_factory=lambda: None)
+    differential: bool = field(default_factory=bool)
+    relative: bool = field(default_factory=bool)
 
 
 @dataclass(frozen=True)
@@ -99,10 +99,10 @@ class RobotLocalization:
     pose: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
     covariance: NDArray[np.float64] = field(default_factory=lambda: 1e-9 * np.eye(3))
     process_noise: NDArray[np.float64] = field(default_factory=lambda: np.diag([0.05, 0.05, 0.06]))
-    frequency: float = 30.0
-    sensor_timeout: float = 1 / 30
-    history: float = 10.0
-    filter: str = "ekf"
+    frequency: float = field(default_factory=lambda: 30.0)
+    sensor_timeout: float = field(default_factory=lambda: 1 / 30)
+    history: float = field(default_factory=lambda: 10.0)
+    filter: str = field(default_factory=lambda: "ekf")
 
     def localizer(self, **options: Any) -> BaseLocalizer:
         """Make a BaseLocalizer of these settings, its sources declared.
@@ -284,7 +284,7 @@ def _config(parameters: dict[str, Any], name: str) -> set[str]:
     if len(flags) != 15 or not all(isinstance(flag, bool) for flag in flags):
         raise ValueError(f"{key}: got {len(flags)} entries, expected 15 booleans")
     wanted = {variable for variable, flag in zip(VARIABLES, flags, strict=True) if flag}
-    lost = [v for v in ("ax", "ay") if v in wanted]
+    lost: list[str] = [v for v in ("ax", "ay") if v in wanted]
     if not parameters.get("two_d_mode", False):
         lost += [v for v in VARIABLES if v in wanted and v not in PLANAR and v not in lost]
     if lost:

@@ -195,7 +195,7 @@ def simulate_drive(
     random = np.random.default_rng(rng)
     dt, ratio = 0.02, 5
     count = max(1, round(length / 0.8 / (dt * ratio))) * ratio
-    t = dt * np.arange(count + 1)
+    t: Array = dt * np.arange(count + 1, dtype=np.float64)
     middle = t[1:] - dt / 2
     twist = np.stack(
         [
