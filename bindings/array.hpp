@@ -115,6 +115,15 @@ void write_matrix(const Matrix& matrix, double* row_major) {
   Eigen::Map<RowMajor>(row_major, matrix.rows(), matrix.cols()) = matrix;
 }
 
+/// A copy: a vector as (n), a matrix as (rows, columns).
+template <typename Derived>
+Array to_array(const Eigen::MatrixBase<Derived>& M) {
+  const py::ssize_t shape[] = {M.rows(), M.cols()};
+  Array array = make_array(shape, Derived::IsVectorAtCompileTime ? 1 : 2);
+  write_matrix(M.derived(), array.mutable_data());
+  return array;
+}
+
 inline SmallMatrix matrix_at(const Batch& batch, py::ssize_t i, py::ssize_t rows,
                              py::ssize_t cols) {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

@@ -38,7 +38,7 @@ Array q_of(const IkSolutions& s) {
   return out;
 }
 
-Array numbers_of(const IkSolutions& s, double ClosedFormSolution::*member) {
+Array error_array(const IkSolutions& s, double ClosedFormSolution::*member) {
   const py::ssize_t shape[] = {s.count()};
   Array out = make_array(shape, 1);
   for (py::ssize_t i = 0; i < s.count(); ++i) {
@@ -224,11 +224,11 @@ IkSolutions(8 solutions)
       .def_property_readonly("exact", &exact_of, "(k,) bool: whether both errors are at most 1e-9.")
       .def_property_readonly(
           "position_error",
-          [](const IkSolutions& s) { return numbers_of(s, &ClosedFormSolution::position_error); },
+          [](const IkSolutions& s) { return error_array(s, &ClosedFormSolution::position_error); },
           "(k,), m: distance from the target, by forward kinematics.")
       .def_property_readonly(
           "rotation_error",
-          [](const IkSolutions& s) { return numbers_of(s, &ClosedFormSolution::rotation_error); },
+          [](const IkSolutions& s) { return error_array(s, &ClosedFormSolution::rotation_error); },
           "(k,), rad: angle from the target, by forward kinematics.")
       .def_property_readonly("singular", &singular_of,
                              "For each solution 'shoulder', 'elbow' or 'wrist' where two branches "

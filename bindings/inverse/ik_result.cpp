@@ -11,8 +11,6 @@ namespace {
 
 const Chain& chain_of(const py::object& chain) { return chain.cast<const Chain&>(); }
 
-Array to_array(const JointVector& v) { return Array(v.size(), v.data()); }
-
 py::array_t<std::int8_t> limits_of(const ExplainedIk& ik) {
   return py::array_t<std::int8_t>(ik.result.q.size(), ik.result.active_limits.data());
 }

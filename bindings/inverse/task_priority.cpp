@@ -134,13 +134,6 @@ struct ExplainedStep : TaskPriorityStep {
   std::array<SmallVector, kMaxTasks + 1> sigma;  // empty for the null-space motion
 };
 
-Array to_array(const JointVector& v) {
-  const py::ssize_t n = v.size();
-  Array array = make_array(&n, 1);
-  std::copy_n(v.data(), n, array.mutable_data());
-  return array;
-}
-
 Array contributions(const ExplainedStep& step) {
   const py::ssize_t n = step.dq.size();
   const py::ssize_t shape[] = {step.count, n};

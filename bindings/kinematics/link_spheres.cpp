@@ -49,7 +49,7 @@ std::pair<int, int> read_pair(const py::handle& entry, std::size_t i) {
   }
 }
 
-LinkSpheres make(const Chain& robot, const py::object& spheres, const py::object& pairs) {
+LinkSpheres make_spheres(const Chain& robot, const py::object& spheres, const py::object& pairs) {
   LinkSpheres shape;
   for (const py::handle entry :
        read_sequence(spheres, "spheres", {}, "a list of (frame, center, radius)")) {
@@ -141,7 +141,7 @@ Examples
 >>> shape.pairs
 ((0, 1),)
 )")
-      .def(py::init(&make), py::arg("robot"), py::arg("spheres"), py::kw_only(),
+      .def(py::init(&make_spheres), py::arg("robot"), py::arg("spheres"), py::kw_only(),
            py::arg("pairs") = py::none())
       .def_static(
           "along_links",

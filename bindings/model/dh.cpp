@@ -1,6 +1,5 @@
 #include "thing_kin/model/dh.hpp"
 
-#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -12,8 +11,6 @@
 namespace thing_kin::python {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 DhRow make_row(double d, double theta, double a, double alpha,
                const std::optional<std::string>& joint, std::string name, std::string frame,

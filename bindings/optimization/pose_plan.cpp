@@ -85,7 +85,8 @@ BoundPlanner make(const Chain& robot, const OptionalArray& base_goal,
                       spheres.value_or(LinkSpheres{}), std::move(shapes))};
 }
 
-py::object solve(const BoundPlanner& bound, const ArrayLike& target, const OptionalArray& seed) {
+py::object solve_pose(const BoundPlanner& bound, const ArrayLike& target,
+                      const OptionalArray& seed) {
   const Batch pose = read(target, "target", {4, 4}, false);
   check_magnitude(pose, "target");
   const SE3 T = read_pose(pose.data, "target");
@@ -104,7 +105,7 @@ py::object solve(const BoundPlanner& bound, const ArrayLike& target, const Optio
   return py::cast(std::move(out));
 }
 
-void bind_result(py::module_& m) {
+void bind_pose_result(py::module_& m) {
   const auto number = [](auto PosePlan::*field) {
     return [field](const ExplainedPlan& p) { return p.plan.*field; };
   };
@@ -156,7 +157,7 @@ violated. 'budget': iterations ran out.)")
 }  // namespace
 
 void bind_pose_plan(py::module_& m) {
-  bind_result(m);
+  bind_pose_result(m);
   const PosePlanOptions defaults;
   const auto none = py::none();
   const auto options = [&](auto&& define) {
@@ -236,7 +237,8 @@ Examples
     planner.def(py::init(&make), py::arg("robot"), py::kw_only(), extra...);
   });
   planner
-      .def("solve", &solve, py::arg("target"), py::arg("seed") = none, R"(Solves for one target.
+      .def("solve", &solve_pose, py::arg("target"), py::arg("seed") = none,
+           R"(Solves for one target.
 
 Parameters
 ----------
@@ -279,7 +281,7 @@ True
           const BoundPlanner bound =
               make(robot, base_goal, base_radius, heading, obstacles, spheres, jacobian, frame,
                    search, max_iterations, max_restarts, samples, descents, tolerance, rng);
-          return solve(bound, target, seed);
+          return solve_pose(bound, target, seed);
         },
         py::arg("robot"), py::arg("target"), py::arg("seed") = none, py::kw_only(), extra...,
         R"(The whole-body pose of least sqrt(kappa/M) for a target, [M17] (4.34).

@@ -1,6 +1,5 @@
 #include "optimization/problem.hpp"
 
-#include <limits>
 #include <optional>
 
 #include <pybind11/stl.h>
@@ -11,8 +10,6 @@
 namespace thing_kin::python {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // One number for all entries or one each; -inf and inf pass.
 Eigen::VectorXd read_bounds(const py::object& bounds, const char* name, py::ssize_t size) {
@@ -118,14 +115,6 @@ py::dict to_dict(const std::vector<Violation>& violations) {
     named[py::str(violation.name)] = violation.amount;
   }
   return named;
-}
-
-Array to_array(const Eigen::VectorXd& v) { return Array(v.size(), v.data()); }
-
-Array to_array(const Eigen::MatrixXd& M) {
-  Array array({M.rows(), M.cols()});
-  write_matrix(M, array.mutable_data());
-  return array;
 }
 
 void bind_evaluation(py::module_& m) {

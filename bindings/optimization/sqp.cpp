@@ -41,8 +41,6 @@ Minimizer make_minimizer(const std::string& name) {
   }
 }
 
-Array to_array(const Eigen::VectorXd& v) { return Array(v.size(), v.data()); }
-
 template <typename Value>
 py::array_t<Value> column(const std::vector<Value>& values) {
   py::array_t<Value> array(static_cast<py::ssize_t>(values.size()));

@@ -57,8 +57,8 @@ Batch read_variables(const Term& term, const ArrayLike& q) {
                         "one where it exists with its derivative: no singular posture");
 }
 
-std::pair<Array, Array> evaluate(const TermRecipe& recipe, const OptionalRobot& robot,
-                                 const ArrayLike& q) {
+std::pair<Array, Array> evaluate_term(const TermRecipe& recipe, const OptionalRobot& robot,
+                                      const ArrayLike& q) {
   const auto term = bound(recipe, robot);
   const Batch batch = read_variables(*term, q);
   const py::ssize_t n = batch.size;
@@ -121,7 +121,7 @@ Examples
 True
 )")
       .def_property_readonly("name", &TermRecipe::name, "For messages and traces: 'pose'.")
-      .def("evaluate", &evaluate, py::arg("robot"), py::arg("q"),
+      .def("evaluate", &evaluate_term, py::arg("robot"), py::arg("q"),
            R"(The term's numbers and their derivatives.
 
 Parameters

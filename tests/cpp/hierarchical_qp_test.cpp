@@ -3,7 +3,6 @@
 #include "thing_kin/linalg/hierarchical_qp.hpp"
 
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -14,8 +13,6 @@
 
 namespace thing_kin {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Row {
   Eigen::MatrixXd A;

@@ -2,7 +2,6 @@
 
 #include "thing_kin/inverse/set_task.hpp"
 
-#include <limits>
 #include <memory>
 #include <numbers>
 
@@ -13,8 +12,6 @@
 
 namespace thing_kin {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 IntervalValue at(const SetTask& task, const Chain& robot, const Eigen::VectorXd& q,
                  const Eigen::VectorXd& target) {

@@ -80,8 +80,8 @@ TEST(JointDifference, WrapsContinuousJointsOnly) {
   joint_difference(Chain::from_dh(rows), from.data(), to.data(), difference.data());
   EXPECT_NEAR(difference[0], 2 * M_PI - 6.0, 1e-12);  // q itself is rounded to 1e-12
   EXPECT_EQ(difference[1], -6.0);
-  EXPECT_EQ(wrap_angle(M_PI), -M_PI);
-  EXPECT_EQ(wrap_angle(-M_PI), -M_PI);
+  EXPECT_EQ(shortest_turn(M_PI), -M_PI);
+  EXPECT_EQ(shortest_turn(-M_PI), -M_PI);
 }
 
 }  // namespace

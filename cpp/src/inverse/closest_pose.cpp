@@ -18,7 +18,7 @@ constexpr double kStationary = 1e-10;
 
 // Where the solutions form a valley, the way along its floor is long and gains nothing: so many
 // steps on end that gain less than this fraction of the cost are the end.
-constexpr double kLeastGain = 1e-9;
+constexpr double kIdleGain = 1e-9;
 constexpr int kMostIdle = 4;
 
 // Newton's steps are damped between nothing and so much that a step is lost in rounding.
@@ -158,7 +158,7 @@ Rest find_closest_pose(const IkProblem& problem, int most, IkPoint& point,
     if (newton_step(problem.box, point.q, cost, held, damping, step) &&
         advance(problem, step, point)) {
       damping *= 0.1;
-      idle = before - point.value.cost() < kLeastGain * before ? idle + 1 : 0;
+      idle = before - point.value.cost() < kIdleGain * before ? idle + 1 : 0;
       expand(problem, point, cost);
       held = pressed(problem.box, point.q, cost);
     } else {

@@ -13,10 +13,10 @@ namespace thing_kin {
 namespace {
 
 constexpr int kMostSteps = 100;
-constexpr double kLargestTurn = std::numbers::pi / 4;
+constexpr double kLargestWay = std::numbers::pi / 4;
 
 // A relative gain below this, or a step shortened so often, is the end.
-constexpr double kLeastGain = 1e-10;
+constexpr double kLeastRelativeGain = 1e-10;
 constexpr double kLeastPart = 1e-4;
 
 // Iterations to come back to the target after a step beside it.
@@ -82,7 +82,7 @@ void improve(const IkProblem& problem, const IkMeasure& measure, IkPoint& point,
     const JointVector way = part * measure.descent(point.q);
     IkPoint next = point;
     take_damped_step(J, problem.residual.derivative(point.value), point.value.e, measure.mobility(),
-                     way.data(), {1e-12, kLargestTurn}, problem.box, next.q);
+                     way.data(), {1e-12, kLargestWay}, problem.box, next.q);
     const bool reached = descend(problem, kReturn, next, iterations);
     const double gain = value - measure(next.q);
     if (!reached || !(gain > 0.0)) {
@@ -92,7 +92,7 @@ void improve(const IkProblem& problem, const IkMeasure& measure, IkPoint& point,
     point = next;
     value -= gain;
     part = std::min(measure.longest_step(), 2.0 * part);
-    if (gain < kLeastGain * (std::abs(value) + kLeastGain)) {
+    if (gain < kLeastRelativeGain * (std::abs(value) + kLeastRelativeGain)) {
       return;
     }
   }

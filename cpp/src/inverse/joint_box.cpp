@@ -9,7 +9,7 @@ namespace thing_kin {
 
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kWholeTurn = 2.0 * std::numbers::pi;
 
 // from + step, rounded so that the way back is no longer than the step in floating point too.
 double within(double from, double step) noexcept {
@@ -26,7 +26,7 @@ JointBox::JointBox(const Chain& chain) noexcept : lower_(chain.lower()), upper_(
   for (std::size_t j = 0; std::cmp_less(j, chain.dof()); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
     rotary_[j] = thing_kin::is_rotary(chain.joint_types()[j]);
-    endless_[j] = rotary_[j] && upper_[i] - lower_[i] >= kTurn;
+    endless_[j] = rotary_[j] && upper_[i] - lower_[i] >= kWholeTurn;
   }
 }
 
@@ -35,7 +35,7 @@ void JointBox::keep_near(const JointVector& seed, const JointVector& max_step) n
     lower_[j] = std::max(lower_[j], within(seed[j], -max_step[j]));
     upper_[j] = std::min(upper_[j], within(seed[j], max_step[j]));
     const auto i = static_cast<std::size_t>(j);
-    endless_[i] = endless_[i] && upper_[j] - lower_[j] >= kTurn;
+    endless_[i] = endless_[i] && upper_[j] - lower_[j] >= kWholeTurn;
   }
 }
 
@@ -43,7 +43,7 @@ void JointBox::narrow(Eigen::Index j, double lower, double upper) noexcept {
   lower_[j] = std::max(lower_[j], lower);
   upper_[j] = std::min(upper_[j], upper);
   const auto i = static_cast<std::size_t>(j);
-  endless_[i] = endless_[i] && upper_[j] - lower_[j] >= kTurn;
+  endless_[i] = endless_[i] && upper_[j] - lower_[j] >= kWholeTurn;
 }
 
 double JointBox::inside(Eigen::Index j, double x) const noexcept {
@@ -52,7 +52,7 @@ double JointBox::inside(Eigen::Index j, double x) const noexcept {
   }
   if (is_endless(j)) {
     const double past = x < lower_[j] ? lower_[j] - x : upper_[j] - x;
-    x += std::copysign(kTurn * std::ceil(std::abs(past) / kTurn), past);
+    x += std::copysign(kWholeTurn * std::ceil(std::abs(past) / kWholeTurn), past);
   }
   return std::clamp(x, lower_[j], upper_[j]);
 }
@@ -68,9 +68,9 @@ void JointBox::wind_towards(const JointVector& seed, JointVector& q) const noexc
     }
     // A limit may be in the way of the nearest image, but since the seed is within the limits not
     // of the one before it.
-    const double turns = std::round((seed[j] - q[j]) / kTurn);
+    const double turns = std::round((seed[j] - q[j]) / kWholeTurn);
     for (const double less : {0.0, 1.0}) {
-      const double x = q[j] + (turns - std::copysign(less, turns)) * kTurn;
+      const double x = q[j] + (turns - std::copysign(less, turns)) * kWholeTurn;
       if (x >= lower_[j] && x <= upper_[j]) {
         q[j] = x;
         break;

@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "thing_kin/core/error.hpp"
 
 namespace thing_kin {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void check_positive(double value, const char* name) {
   if (!(std::isfinite(value) && value > 0.0)) {

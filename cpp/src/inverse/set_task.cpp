@@ -1,7 +1,6 @@
 #include "thing_kin/inverse/set_task.hpp"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <Eigen/Geometry>
@@ -13,20 +12,12 @@ namespace thing_kin {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // One row: the value, its interval, and zero for a Jacobian.
 void one_row(int n, double value, double lower, double upper, IntervalValue& interval) {
   interval.jacobian.setZero(1, n);
   interval.value.setConstant(1, value);
   interval.lower.setConstant(1, lower);
   interval.upper.setConstant(1, upper);
-}
-
-Jacobian jacobian_of(const Chain& chain, const Posture& posture, int frame) {
-  Jacobian J;
-  geometric_jacobian(chain, posture, frame, ReferenceFrame::kWorldAligned, J);
-  return J;
 }
 
 // A unit vector orthogonal to a unit vector.
@@ -73,7 +64,7 @@ void DistanceTask::evaluate_interval(const Chain& chain, const Posture& posture,
   const Eigen::Vector3d direction =
       distance > 0.0 ? Eigen::Vector3d(way / distance) : Eigen::Vector3d::UnitX();
   interval.jacobian.noalias() =
-      direction.transpose() * jacobian_of(chain, posture, frame).topRows<3>();
+      direction.transpose() * world_aligned_jacobian(chain, posture, frame).topRows<3>();
 }
 
 BaseObstacleTask::BaseObstacleTask(double radius, double gain)
@@ -127,7 +118,7 @@ void FieldOfViewTask::evaluate_interval(const Chain& chain, const Posture& postu
   }
   // The angle falls with a turn about u and with a motion along d x u over the distance.
   const Eigen::Vector3d u = sine > 0.0 ? Eigen::Vector3d(turn / sine) : orthogonal_to(a);
-  const Jacobian J = jacobian_of(chain, posture, frame);
+  const Jacobian J = world_aligned_jacobian(chain, posture, frame);
   interval.jacobian.noalias() =
       (d.cross(u) / distance).transpose() * J.topRows<3>() - u.transpose() * J.bottomRows<3>();
 }

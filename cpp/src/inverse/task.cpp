@@ -1,11 +1,11 @@
 #include "thing_kin/inverse/task.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "thing_kin/core/error.hpp"
 #include "thing_kin/kinematics/jacobian.hpp"
 #include "thing_kin/kinematics/pose_error.hpp"
+#include "thing_kin/lie/se2.hpp"
 #include "thing_kin/lie/so3.hpp"
 #include "thing_kin/model/joint_difference.hpp"
 
@@ -15,18 +15,6 @@ namespace {
 
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using RowMajor4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
-
-// To (-pi, pi].
-double wrapped(double angle) {
-  const double remainder = std::remainder(angle, 2 * std::numbers::pi);
-  return remainder <= -std::numbers::pi ? std::numbers::pi : remainder;
-}
-
-Jacobian jacobian_of(const Chain& chain, const Posture& posture, int frame) {
-  Jacobian J;
-  geometric_jacobian(chain, posture, frame, ReferenceFrame::kWorldAligned, J);
-  return J;
-}
 
 }  // namespace
 
@@ -41,7 +29,7 @@ void PoseTask::evaluate(const Chain& chain, const Posture& posture, int frame, c
                         const double* target, TaskValue& value) const noexcept {
   const Eigen::Map<const RowMajor4> goal(target);
   const SE3 T_goal{goal.topLeftCorner<3, 3>(), goal.topRightCorner<3, 1>()};
-  value.jacobian = jacobian_of(chain, posture, frame);
+  value.jacobian = world_aligned_jacobian(chain, posture, frame);
   value.error = pose_error(frame_pose(chain, posture, frame), T_goal);
 }
 
@@ -49,7 +37,7 @@ void PositionTask::evaluate(const Chain& chain, const Posture& posture, int fram
                             const double* /*q*/, const double* target,
                             TaskValue& value) const noexcept {
   const Eigen::Map<const Eigen::Vector3d> goal(target);
-  value.jacobian = jacobian_of(chain, posture, frame).topRows<3>();
+  value.jacobian = world_aligned_jacobian(chain, posture, frame).topRows<3>();
   value.error = goal - frame_pose(chain, posture, frame).translation;
 }
 
@@ -58,7 +46,7 @@ void OrientationTask::evaluate(const Chain& chain, const Posture& posture, int f
                                TaskValue& value) const noexcept {
   const Eigen::Map<const RowMajor3> goal(target);
   const Eigen::Matrix3d R = frame_pose(chain, posture, frame).rotation;
-  value.jacobian = jacobian_of(chain, posture, frame).bottomRows<3>();
+  value.jacobian = world_aligned_jacobian(chain, posture, frame).bottomRows<3>();
   value.error = so3_log(goal * R.transpose());
 }
 
@@ -72,7 +60,7 @@ void BaseTask::evaluate(const Chain& chain, const Posture& /*posture*/, int /*fr
     value.jacobian(row, joint) = 1.0;
     value.error[row] = target[row] - q[joint];
   }
-  value.error[2] = wrapped(value.error[2]);
+  value.error[2] = wrap_angle(value.error[2]);
 }
 
 void PostureTask::evaluate(const Chain& chain, const Posture& /*posture*/, int /*frame*/,
@@ -83,7 +71,7 @@ void PostureTask::evaluate(const Chain& chain, const Posture& /*posture*/, int /
   joint_difference(chain, q, target, value.error.data());
   if (chain.base_joints()) {
     double& theta = value.error[(*chain.base_joints())[2]];
-    theta = wrapped(theta);
+    theta = wrap_angle(theta);
   }
 }
 

@@ -1,15 +1,10 @@
 #include "thing_kin/kinematics/manipulability.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "thing_kin/core/tolerance.hpp"
 
 namespace thing_kin {
-
-namespace {
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-}
 
 Dexterity::Dexterity(const Chain& chain, const Posture& posture, const MovingPoint& of) noexcept {
   Jacobian J;

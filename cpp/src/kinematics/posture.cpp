@@ -7,8 +7,8 @@ namespace thing_kin {
 namespace {
 
 SE3 from_columns(const double* columns) {
-  using Padded = Eigen::Map<const Eigen::Matrix<double, 4, 4>>;
-  const Padded padded(columns);
+  using PaddedPose = Eigen::Map<const Eigen::Matrix<double, 4, 4>>;
+  const PaddedPose padded(columns);
   return {padded.topLeftCorner<3, 3>(), padded.topRightCorner<3, 1>()};
 }
 

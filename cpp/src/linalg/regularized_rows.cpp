@@ -8,16 +8,16 @@ namespace thing_kin {
 namespace {
 
 // Above this part of the whole the smallest singular value is no question of rank.
-constexpr double kClearlyRegular = 1e-7;
+constexpr double kRegularRows = 1e-7;
 // The Cholesky factor below squares R: half of the digits must be enough.
 constexpr double kWellConditioned = 1e-4;
 // Rows that are the rest of a projection carry its rounding, and that of the projections before: a
 // singular value below this part of the whole is noise. What moves along it moves the rows by less.
-constexpr double kNoise = 1e-11;
+constexpr double kRowNoise = 1e-11;
 
 int rank_of(const Svd& svd, double scale) {
   int rank = svd.rank;
-  while (rank > 0 && svd.sigma[rank - 1] <= kNoise * std::max(scale, svd.sigma[0])) {
+  while (rank > 0 && svd.sigma[rank - 1] <= kRowNoise * std::max(scale, svd.sigma[0])) {
     --rank;
   }
   return rank;
@@ -55,7 +55,7 @@ void RegularizedRows::factor(const SmallMatrix& M, double scale,
   }
   if (m <= M.cols() && m <= RowQr::kMaxRows && regularization.filter == nullptr) {
     qr_.factor(M);
-    regular_ = qr_.least_singular_value() > (damped_ ? kWellConditioned : kClearlyRegular) * scale;
+    regular_ = qr_.least_singular_value() > (damped_ ? kWellConditioned : kRegularRows) * scale;
   }
   if (regular_) {
     rank_ = static_cast<int>(m);
@@ -163,7 +163,7 @@ bool solve_regular(const SmallMatrix& M, const SmallVector& r, double scale, Sma
   } else {
     qr.factor(M);
   }
-  if (!(qr.least_singular_value() > kClearlyRegular * scale)) {
+  if (!(qr.least_singular_value() > kRegularRows * scale)) {
     return false;
   }
   t.resize(M.cols());

@@ -24,12 +24,12 @@ double continuous_difference(double from, double to) {
   const double of_from = to - difference;
   const double of_to = difference + of_from;
   const double rounded_off = (to - of_to) + (of_from - from);
-  return into_range(wrap_angle(difference) + wrap_angle(rounded_off));
+  return into_range(shortest_turn(difference) + shortest_turn(rounded_off));
 }
 
 }  // namespace
 
-double wrap_angle(double angle) noexcept {
+double shortest_turn(double angle) noexcept {
   if (angle >= -kPi && angle < kPi) {
     return angle;
   }

@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 // Curvature below this is lifted to it, relative to the largest: it keeps the substitute's
 // conditioning where doubles can handle it.
-constexpr double kLeastCurvature = 1e-8;
+constexpr double kLeastEigenvalue = 1e-8;
 constexpr double kMostAcross = 1e8;
 
 MatrixXd lifted(const MatrixXd& H, double least) {
@@ -51,7 +51,7 @@ std::optional<ConvexQuadratic> convex_across(const MatrixView& H, const MatrixVi
   const MatrixXd Y = Q.leftCols(rank);
   const MatrixXd Z = Q.rightCols(Q.cols() - rank);
   const double largest = std::max(1e-8, H.cwiseAbs().maxCoeff());
-  const double least = kLeastCurvature * largest;
+  const double least = kLeastEigenvalue * largest;
 
   MatrixXd within = Z.transpose() * H * Z;
   within = lifted(0.5 * (within + within.transpose()), least);

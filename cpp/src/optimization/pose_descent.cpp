@@ -42,7 +42,6 @@ constexpr double kFirstPenalty = 5.0;
 // arm's length).
 constexpr double kOnTarget = 1e-11;
 constexpr int kMostReturns = 12;
-constexpr int kMostArrivals = 60;
 
 IkProblem make_ik(const PosePlanner& planner, const JointBox& box, const Reach& reach,
                   const SE3& target) {

@@ -12,6 +12,9 @@
 
 namespace thing_kin {
 
+/// The most iterations that bring the hand to the target from where it is.
+inline constexpr int kMostArrivals = 60;
+
 /// A configuration with the hand at the target, and what is known of it.
 struct PosePoint {
   JointVector q;

@@ -12,8 +12,6 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 // Draws for one base placement until it is out of all discs.
 constexpr int kMostDraws = 32;
 
-constexpr int kMostArrivals = 60;
-
 }  // namespace
 
 PoseStarts::PoseStarts(const PosePlanner& planner, const IkProblem& ik, const SE3& target,

@@ -12,8 +12,8 @@ namespace {
 
 using RowMajorPose = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 
-constexpr double kOnPose = 1e-9;  // m and rad
-constexpr double kRest = 1e-6;    // a step of the joints that is none, m and rad
+constexpr double kWaypointOnPose = 1e-9;  // m and rad
+constexpr double kRest = 1e-6;            // a step of the joints that is none, m and rad
 
 class PriorityFollower {
  public:
@@ -27,7 +27,7 @@ class PriorityFollower {
     there = false;
     for (;; ++steps) {
       const double away = distance(goal, q);
-      there = away < kOnPose;
+      there = away < kWaypointOnPose;
       if (there && (steps > 0 && dq_.lpNorm<Eigen::Infinity>() < kRest)) {
         return steps;
       }

@@ -76,13 +76,13 @@ class Follower {
 
   bool settle(const PathGoal& goal, const Eigen::Vector2d* place, JointVector& q) {
     constexpr int kIterations = 30;
-    constexpr double kRest = 1e-3;
+    constexpr double kSettled = 1e-3;
     for (int i = 0; i < kIterations; ++i) {
       const double moved = step(goal, place, q);
       if (!std::isfinite(moved)) {
         return false;
       }
-      if (moved < kRest && error_ < kRest) {
+      if (moved < kSettled && error_ < kSettled) {
         break;
       }
     }

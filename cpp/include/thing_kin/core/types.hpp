@@ -1,10 +1,14 @@
 #pragma once
 
+#include <limits>
+
 #include <Eigen/Core>
 
 #include "thing_kin/core/max_dof.hpp"
 
 namespace thing_kin {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The most rows one task may have: a posture task has a row for each joint.
 inline constexpr int kMaxTaskRows = kMaxDof;

@@ -24,4 +24,10 @@ struct MovingPoint {
 void geometric_jacobian(const Chain& chain, const Posture& posture, const MovingPoint& of,
                         ReferenceFrame reference, Jacobian& J) noexcept;
 
+inline Jacobian world_aligned_jacobian(const Chain& chain, const Posture& posture, int frame) {
+  Jacobian J;
+  geometric_jacobian(chain, posture, frame, ReferenceFrame::kWorldAligned, J);
+  return J;
+}
+
 }  // namespace thing_kin
