@@ -38,8 +38,8 @@ Array to_array(const double* x, int n) {
   return array;
 }
 
-void call(const py::object& function, const double* x, int n, const char* name, int rows,
-          double* out) {
+void call_user(const py::object& function, const double* x, int n, const char* name, int rows,
+               double* out) {
   StateVector value(rows);
   read_into(function(to_array(x, n)), name, rows, value);
   std::copy_n(value.data(), rows, out);
@@ -56,8 +56,8 @@ void differentiate(const py::object& function, const py::object& jacobian, const
   }
   J.resize(rows, n);
   numeric_jacobian(
-      [&](const double* at, double* out) { call(function, at, n, value_name, rows, out); }, x, rows,
-      angles, J.data());
+      [&](const double* at, double* out) { call_user(function, at, n, value_name, rows, out); }, x,
+      rows, angles, J.data());
 }
 
 void times(const ModelMatrix& A, const double* x, double* out) noexcept {
@@ -222,7 +222,7 @@ FilterStatus Motion::predict(ExtendedKalmanFilter& filter, const StateMatrix* Q,
     times(F, filter.x().data(), fx.data());
   } else {
     const StateVector x = filter.x();
-    call(function_, x.data(), n_, "f(x)", n_, fx.data());
+    call_user(function_, x.data(), n_, "f(x)", n_, fx.data());
     differentiate(function_, jacobian_, jacobian_name_, "f(x)", x, n_, filter.angles(), F);
   }
   return filter.predict(fx, F, *Q);
@@ -245,7 +245,7 @@ FilterStatus Motion::predict(UnscentedKalmanFilter& filter, const StateMatrix* Q
     if (rows_) {
       times(F, X.data() + k * n_, to);
     } else {
-      call(function_, X.data() + k * n_, n_, "f(x)", n_, to);
+      call_user(function_, X.data() + k * n_, n_, "f(x)", n_, to);
     }
   }
   return filter.predict(Y, *Q);
@@ -291,7 +291,7 @@ FilterStatus Sensor::update(ExtendedKalmanFilter& filter, const StateVector& z,
     times(H, filter.x().data(), hx.data());
   } else {
     const StateVector x = filter.x();
-    call(function_, x.data(), n_, "h(x)", m_, hx.data());
+    call_user(function_, x.data(), n_, "h(x)", m_, hx.data());
     differentiate(function_, jacobian_, jacobian_name_, "h(x)", x, m_, angles_, H);
   }
   return filter.update(z, hx, H, R, {gate, angles_});
@@ -313,7 +313,7 @@ FilterStatus Sensor::update(UnscentedKalmanFilter& filter, const StateVector& z,
     if (rows_) {
       times(H, X.data() + k * n_, Z.data() + k * m_);
     } else {
-      call(function_, X.data() + k * n_, n_, "h(x)", m_, Z.data() + k * m_);
+      call_user(function_, X.data() + k * n_, n_, "h(x)", m_, Z.data() + k * m_);
     }
   }
   return filter.update(z, Z, R, {gate, angles_});

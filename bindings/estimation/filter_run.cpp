@@ -10,15 +10,15 @@ namespace thing_kin::python {
 
 namespace {
 
-Array empty(std::initializer_list<py::ssize_t> shape) {
+Array empty_array(std::initializer_list<py::ssize_t> shape) {
   return make_array(shape.begin(), static_cast<int>(shape.size()));
 }
 
-double* numbers(const py::object& array) {
+double* writable(const py::object& array) {
   return array.is_none() ? nullptr : py::reinterpret_borrow<Array>(array).mutable_data();
 }
 
-py::list names(const FilterRun& run) {
+py::list status_names(const FilterRun& run) {
   py::list list;
   for (const FilterStatus status : run.status) {
     list.append(name_of(status));
@@ -26,7 +26,7 @@ py::list names(const FilterRun& run) {
   return list;
 }
 
-std::string shown(const FilterRun& run) {
+std::string shown_run(const FilterRun& run) {
   const py::ssize_t count = run.x.shape(0);
   py::ssize_t accepted = 0;
   for (const FilterStatus status : run.status) {
@@ -42,17 +42,17 @@ std::string shown(const FilterRun& run) {
 }  // namespace
 
 FilterRun::FilterRun(int n, int m, py::ssize_t count, bool smooth)
-    : x(empty({count, n})),
-      P(empty({count, n, n})),
-      innovations(empty({count, m})),
-      nis(empty({count})),
+    : x(empty_array({count, n})),
+      P(empty_array({count, n, n})),
+      innovations(empty_array({count, m})),
+      nis(empty_array({count})),
       accepted(count),
       status(static_cast<std::size_t>(count)),
       x_smooth(py::none()),
       P_smooth(py::none()) {
   if (smooth) {
-    x_smooth = empty({count, n});
-    P_smooth = empty({count, n, n});
+    x_smooth = empty_array({count, n});
+    P_smooth = empty_array({count, n, n});
   }
 }
 
@@ -63,8 +63,8 @@ RunOutput FilterRun::output() {
   out.innovation = innovations.mutable_data();
   out.nis = nis.mutable_data();
   out.status = status.data();
-  out.x_smooth = numbers(x_smooth);
-  out.P_smooth = numbers(P_smooth);
+  out.x_smooth = writable(x_smooth);
+  out.P_smooth = writable(P_smooth);
   return out;
 }
 
@@ -94,7 +94,7 @@ True
                     "(N,), normalized innovations squared; NaN in rows without a measurement.")
       .def_readonly("accepted", &FilterRun::accepted, "(N,) of bool: there was an update.")
       .def_property_readonly(
-          "status", &names,
+          "status", &status_names,
           "What came of each row: 'ok', 'missing', 'rejected' by the gate, or why "
           "a step was not made, as GaussianFilter.status.")
       .def_readonly("log_likelihood", &FilterRun::log_likelihood,
@@ -108,7 +108,7 @@ True
           [](const FilterRun& run) { return py::reinterpret_borrow<OptionalResult>(run.P_smooth); },
           "(N, n, n), smoothed; None unless asked for.")
       .def("__len__", [](const FilterRun& run) { return run.x.shape(0); })
-      .def("__repr__", &shown);
+      .def("__repr__", &shown_run);
 }
 
 }  // namespace thing_kin::python

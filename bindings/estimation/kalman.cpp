@@ -36,8 +36,8 @@ void add_input(const double* B, const double* u, py::ssize_t n, py::ssize_t k,
   }
 }
 
-bool predict(KalmanFilter& self, const ArrayLike& F, const ArrayLike& Q, const OptionalArray& B,
-             const OptionalArray& u) {
+bool predict_kalman(KalmanFilter& self, const ArrayLike& F, const ArrayLike& Q,
+                    const OptionalArray& B, const OptionalArray& u) {
   const int n = self.size();
   ModelMatrix transition;
   StateMatrix noise;
@@ -54,8 +54,8 @@ bool predict(KalmanFilter& self, const ArrayLike& F, const ArrayLike& Q, const O
   return self.predict(transition, noise, offset) == FilterStatus::kOk;
 }
 
-bool update(KalmanFilter& self, const ArrayLike& z, const ArrayLike& H, const ArrayLike& R,
-            const OptionalNumber& gate, const Indices& angles) {
+bool update_kalman(KalmanFilter& self, const ArrayLike& z, const ArrayLike& H, const ArrayLike& R,
+                   const OptionalNumber& gate, const Indices& angles) {
   StateVector measured;
   ModelMatrix matrix;
   StateMatrix noise;
@@ -66,10 +66,10 @@ bool update(KalmanFilter& self, const ArrayLike& z, const ArrayLike& H, const Ar
   return self.update(measured, matrix, noise, {read_gate(gate), set}) == FilterStatus::kOk;
 }
 
-FilterRun run(KalmanFilter& self, const ArrayLike& record, const ArrayLike& F, const ArrayLike& Q,
-              const ArrayLike& H, const ArrayLike& R, const OptionalArray& B,
-              const OptionalArray& u, const OptionalNumber& gate, const Indices& angles,
-              bool smooth) {
+FilterRun run_kalman(KalmanFilter& self, const ArrayLike& record, const ArrayLike& F,
+                     const ArrayLike& Q, const ArrayLike& H, const ArrayLike& R,
+                     const OptionalArray& B, const OptionalArray& u, const OptionalNumber& gate,
+                     const Indices& angles, bool smooth) {
   const int n = self.size();
   const Batch rows = read_record(record);
   const py::ssize_t m = rows.size;
@@ -150,7 +150,7 @@ array([0.1671, 1.0066])
              py::arg("x"), py::arg("P"), py::kw_only(), py::arg("angles") = py::tuple());
   bind_covariance<KalmanFilter>(filter);
   filter
-      .def("predict", &predict, py::arg("F"), py::arg("Q"), py::arg("B") = py::none(),
+      .def("predict", &predict_kalman, py::arg("F"), py::arg("Q"), py::arg("B") = py::none(),
            py::arg("u") = py::none(),
            R"(One step in time: x = F x + B u, P = F P F^T + Q, [X21] (2.3).
 
@@ -182,7 +182,7 @@ True
 >>> filter.x, filter.P
 (array([7.]), array([[1.5]]))
 )")
-      .def("update", &update, py::arg("z"), py::arg("H"), py::arg("R"),
+      .def("update", &update_kalman, py::arg("z"), py::arg("H"), py::arg("R"),
            py::arg("gate") = py::none(), py::kw_only(), py::arg("angles") = py::tuple(),
            R"(A measurement z = H x + noise, [X21] (2.4), (2.5), P in Joseph's form.
 
@@ -218,8 +218,8 @@ False
 >>> filter.nis, filter.status
 (40.5, 'rejected')
 )")
-      .def("run", &run, py::arg("record"), py::kw_only(), py::arg("F"), py::arg("Q"), py::arg("H"),
-           py::arg("R"), py::arg("B") = py::none(), py::arg("u") = py::none(),
+      .def("run", &run_kalman, py::arg("record"), py::kw_only(), py::arg("F"), py::arg("Q"),
+           py::arg("H"), py::arg("R"), py::arg("B") = py::none(), py::arg("u") = py::none(),
            py::arg("gate") = py::none(), py::arg("angles") = py::tuple(), py::arg("smooth") = false,
            R"(Predict, then update, for each row of a record, in the core.
 

@@ -14,7 +14,7 @@ namespace thing_kin::python {
 
 namespace {
 
-using Holder = std::shared_ptr<MeasurementModel>;
+using MeasurementHolder = std::shared_ptr<MeasurementModel>;
 
 std::vector<int> read_indices(const Indices& indices, const char* name) {
   try {
@@ -35,7 +35,7 @@ Batch read_state(const MeasurementModel& model, const ArrayLike& x) {
   return state;
 }
 
-Array seen(const MeasurementModel& model, const ArrayLike& x) {
+Array measured_at(const MeasurementModel& model, const ArrayLike& x) {
   const Batch state = read_state(model, x);
   const py::ssize_t rows = model.rows();
   Array z = make_array(&rows, 1);
@@ -55,8 +55,9 @@ Array slope(const MeasurementModel& model, const ArrayLike& x) {
 }  // namespace
 
 void bind_measurement_models(py::module_& models, py::module_& m) {
-  py::class_<MeasurementModel, Holder>(m, "MeasurementModel", py::is_final(),
-                                       R"(What is measured of a state, with its exact Jacobian.
+  py::class_<MeasurementModel, MeasurementHolder>(
+      m, "MeasurementModel", py::is_final(),
+      R"(What is measured of a state, with its exact Jacobian.
 
 Made by the functions of thing_kin.estimation.models. It is passed to a filter in place of a function,
 and then runs in the core; or called, model(x).
@@ -76,7 +77,7 @@ array([5.   , 0.927])
             return py::tuple(py::cast(model.angles().indices()));
           },
           "Which of them are angles.")
-      .def("__call__", &seen, py::arg("x"), R"(What is expected at a state.
+      .def("__call__", &measured_at, py::arg("x"), R"(What is expected at a state.
 
 Parameters
 ----------

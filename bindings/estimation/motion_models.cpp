@@ -15,11 +15,13 @@ namespace thing_kin::python {
 
 namespace {
 
-using Holder = std::shared_ptr<MotionModel>;
+using MotionHolder = std::shared_ptr<MotionModel>;
 
-Holder holder(const MotionModelPtr& model) { return std::const_pointer_cast<MotionModel>(model); }
+MotionHolder motion_holder(const MotionModelPtr& model) {
+  return std::const_pointer_cast<MotionModel>(model);
+}
 
-double check_time(double dt) {
+double check_seconds(double dt) {
   if (!(std::isfinite(dt) && dt >= 0.0)) {
     throw InvalidArgument("dt", text(dt), "a finite number of seconds from 0");
   }
@@ -31,30 +33,30 @@ Eigen::VectorXd densities(const ArrayLike& noise, py::ssize_t size) {
   return read_number_or_vector(noise, "noise", size, Finite::kYes);
 }
 
-Array moved(const MotionModel& model, const ArrayLike& x, double dt) {
+Array moved_by(const MotionModel& model, const ArrayLike& x, double dt) {
   const int n = model.size();
   const Batch states = read_vectors(x, "x", n);
   check_magnitude(states, "x");
-  check_time(dt);
+  check_seconds(dt);
   return map(states, {n}, [&](const double* in, double* out) {
     model.step(in, dt, out);
     model.angles().wrap(out);
   });
 }
 
-Array matrices(const MotionModel& model, const ArrayLike& x, double dt, bool noise) {
+Array model_matrices(const MotionModel& model, const ArrayLike& x, double dt, bool noise) {
   const int n = model.size();
   const Batch states = read_vectors(x, "x", n);
   check_magnitude(states, "x");
-  check_time(dt);
+  check_seconds(dt);
   return map(states, {n, n}, [&](const double* in, double* out) {
     noise ? model.noise(in, dt, out) : model.jacobian(in, dt, out);
   });
 }
 
-void bind_model(py::module_& m) {
-  py::class_<MotionModel, Holder>(m, "MotionModel", py::is_final(),
-                                  R"(How a state moves, with its exact Jacobian and its noise.
+void bind_motion_model(py::module_& m) {
+  py::class_<MotionModel, MotionHolder>(m, "MotionModel", py::is_final(),
+                                        R"(How a state moves, with its exact Jacobian and its noise.
 
 Made by the functions of thing_kin.estimation.models. It is passed to a filter in place of a function,
 and then runs in the core; or called, model(x, dt).
@@ -79,7 +81,7 @@ array([0.1 , 0.05, 1.  , 0.5 ])
           "angles",
           [](const MotionModel& model) { return py::tuple(py::cast(model.angles().indices())); },
           "Which of them are angles: what the filter is made with.")
-      .def("__call__", &moved, py::arg("x"), py::arg("dt"), R"(The state dt seconds later.
+      .def("__call__", &moved_by, py::arg("x"), py::arg("dt"), R"(The state dt seconds later.
 
 Parameters
 ----------
@@ -94,7 +96,7 @@ Returns
       .def(
           "jacobian",
           [](const MotionModel& model, const ArrayLike& x, double dt) {
-            return matrices(model, x, dt, false);
+            return model_matrices(model, x, dt, false);
           },
           py::arg("x"), py::arg("dt"), R"(The derivative of the moved state with respect to x.
 
@@ -122,7 +124,7 @@ array([[1. , 0.1],
       .def(
           "process_noise",
           [](const MotionModel& model, const ArrayLike& x, double dt) {
-            return matrices(model, x, dt, true);
+            return model_matrices(model, x, dt, true);
           },
           py::arg("x"), py::arg("dt"), R"(The covariance that the model's noise adds in dt seconds.
 
@@ -161,11 +163,11 @@ array([[1. , 1.5],
 }  // namespace
 
 void bind_motion_models(py::module_& models, py::module_& m) {
-  bind_model(m);
+  bind_motion_model(m);
   models.def(
       "constant_velocity",
       [](int dimension, const ArrayLike& noise) {
-        return holder(constant_velocity(dimension, densities(noise, 1)[0]));
+        return motion_holder(constant_velocity(dimension, densities(noise, 1)[0]));
       },
       py::arg("dimension") = 2, py::kw_only(), py::arg("noise") = 1.0,
       R"(Positions, then velocities, of one to three axes: x + v dt.
@@ -194,7 +196,7 @@ Examples
   models.def(
       "constant_acceleration",
       [](int dimension, const ArrayLike& noise) {
-        return holder(constant_acceleration(dimension, densities(noise, 1)[0]));
+        return motion_holder(constant_acceleration(dimension, densities(noise, 1)[0]));
       },
       py::arg("dimension") = 2, py::kw_only(), py::arg("noise") = 1.0,
       R"(Positions, velocities, accelerations of one to three axes: x + v dt + a dt^2/2.
@@ -223,7 +225,7 @@ array([1., 2., 2.])
   models.def(
       "constant_twist",
       [](const ArrayLike& noise) {
-        return holder(constant_twist(Eigen::Vector3d(densities(noise, 3))));
+        return motion_holder(constant_twist(Eigen::Vector3d(densities(noise, 3))));
       },
       py::kw_only(), py::arg("noise") = 1.0,
       R"(A planar pose and its body twist, held: the pose moves by exp(twist dt), exact on SE(2).
@@ -256,8 +258,8 @@ array([1.      , 1.      , 1.570796])
   models.def(
       "omnidirectional",
       [](const std::optional<ArrayLike>& noise) {
-        return holder(omnidirectional(noise ? Eigen::Matrix<double, 8, 1>(densities(*noise, 8))
-                                            : omnidirectional_noise()));
+        return motion_holder(omnidirectional(
+            noise ? Eigen::Matrix<double, 8, 1>(densities(*noise, 8)) : omnidirectional_noise()));
       },
       py::kw_only(), py::arg("noise") = py::none(),
       R"(The planar mode of robot_localization: pose, body velocities and accelerations.

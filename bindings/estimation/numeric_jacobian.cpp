@@ -11,7 +11,7 @@ namespace thing_kin::python {
 
 namespace {
 
-Array to_python(const double* x, py::ssize_t n) {
+Array vector_to_python(const double* x, py::ssize_t n) {
   Array array = make_array(&n, 1);
   std::copy_n(x, n, array.mutable_data());
   return array;
@@ -26,12 +26,12 @@ void bind_numeric_jacobian(py::module_& m) {
         StateVector at;
         read_measurement(x, "x", at);
         StateVector value;
-        read_measurement(f(to_python(at.data(), at.size())), "f(x)", value);
+        read_measurement(f(vector_to_python(at.data(), at.size())), "f(x)", value);
         const auto rows = static_cast<int>(value.size());
         const std::array<py::ssize_t, 2> shape{rows, at.size()};
         Array J = make_array(shape.data(), 2);
         const auto function = [&](const double* point, double* out) {
-          read_into(f(to_python(point, at.size())), "f(x)", rows, value);
+          read_into(f(vector_to_python(point, at.size())), "f(x)", rows, value);
           std::copy_n(value.data(), rows, out);
         };
         numeric_jacobian(function, at, rows, read_angles(angles, rows), J.mutable_data());
