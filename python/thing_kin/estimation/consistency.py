@@ -124,9 +124,7 @@ def consistency_report(
     per_step = np.nansum(samples, axis=0)[steps] / taken
     tails = 0.5 * (1.0 - probability), 0.5 * (1.0 + probability)
     # Where measurements are missing, a step's mean has fewer samples and a wider band.
-    low, high = (
-        np.array([chi_square_quantile(p, dof * int(k)) / k for k in taken]) for p in tails
-    )
+    low, high = (np.array([chi_square_quantile(p, dof * int(k)) / k for k in taken]) for p in tails)
     runs = int(taken.max())
     return ConsistencyReport(
         dof=dof,
