@@ -204,11 +204,9 @@ def test_bad_numbers_are_refused_and_change_nothing(bad: float) -> None:
         value = good.copy()
         value.flat[0] = bad
         arguments = {**spoiled, name: value}
+        step, names = (filter.predict, "FQ") if name in "FQ" else (filter.update, "zHR")
         with pytest.raises(ValueError, match=f"^{name}: got"):
-            if name in "FQ":
-                filter.predict(arguments["F"], arguments["Q"])
-            else:
-                filter.update(arguments["z"], arguments["H"], arguments["R"])
+            step(*(arguments[each] for each in names))
     for call, name in (
         (lambda: filter.predict(F, np.diag([1.0, 1.0, 1.0, -1.0])), "Q"),
         (lambda: filter.update([0, 0], H, [[1.0, 2.0], [2.0, 1.0]]), "R"),

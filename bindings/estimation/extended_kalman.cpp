@@ -38,7 +38,7 @@ Examples
 >>> filter.update([2.2, 0.1], lambda x: [np.hypot(*x[:2]), x[2]], 0.01 * np.eye(2), angles=(1,))
 True
 >>> filter.x.round(3)
-array([0.985, 1.97 , 0.091])
+array([0.985, 1.971, 0.091])
 )");
   filter.def(py::init([](const ArrayLike& x, const ArrayLike& P, const Indices& angles) {
                const InitialState state(x, P, angles);
@@ -187,7 +187,7 @@ Examples
 >>> run = filter.run([1.0, np.nan, 4.0], f=est.models.constant_velocity(1), dt=[1.0, 1.0, 2.0],
 ...                  h=[[1.0, 0.0]], R=[[0.01]], smooth=True)
 >>> run.x_smooth[:, 0].round(2)
-array([1.  , 1.58, 3.99])
+array([1. , 1.9, 4. ])
 )");
 }
 

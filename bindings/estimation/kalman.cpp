@@ -215,7 +215,7 @@ Examples
 >>> filter = est.KalmanFilter([0.0], [[1.0]])
 >>> filter.update([9.0], [[1.0]], [[1.0]], gate=0.99)
 False
->>> filter.nis, filter.status
+>>> round(filter.nis, 6), filter.status
 (40.5, 'rejected')
 )")
       .def("run", &run_kalman, py::arg("record"), py::kw_only(), py::arg("F"), py::arg("Q"),

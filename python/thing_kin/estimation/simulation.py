@@ -1,5 +1,7 @@
 """A model's truth and its measurements, drawn from a generator."""
 
+from __future__ import annotations  # numpy.random is loaded when it is used
+
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -106,46 +108,46 @@ def simulate(
         raise ValueError("Q: got None, expected a covariance: only built-in models have their own")
     x = np.tile(start, (count, 1))
     if P0 is not None:
-        x = x + drawn(generator, root(P0, n, "P0"), count)
-    fixed = None if Q is None else root(Q, n, "Q")
+        x = x + _drawn(generator, _root(P0, n, "P0"), count)
+    fixed = None if Q is None else _root(Q, n, "Q")
     truth = np.empty((count, int(steps), n))
     for k in range(int(steps)):
-        own = noise_root(f, x, dt) if fixed is None else fixed
-        x = wrapped(moved(f, x, dt) + drawn(generator, own, count), state_angles)
+        own = _noise_root(f, x, dt) if fixed is None else fixed
+        x = _wrapped(_moved(f, x, dt) + _drawn(generator, own, count), state_angles)
         truth[:, k] = x
-    clean = np.stack([seen(h, states) for states in truth])
-    spread = root(R, clean.shape[2], "R")
+    clean = np.stack([_seen(h, states) for states in truth])
+    spread = _root(R, clean.shape[2], "R")
     noise = generator.standard_normal(clean.shape) @ spread.T
-    record = wrapped(clean + noise, seen_angles)
+    record = _wrapped(clean + noise, seen_angles)
     return Simulation(truth, record) if runs is not None else Simulation(truth[0], record[0])
 
 
-def root(covariance: ArrayLike, size: int, name: str) -> Array:
-    """Some G with G G^T the covariance, which may be semidefinite."""
+def _root(covariance: ArrayLike, size: int, name: str) -> Array:
+    """Give a G with G G^T the covariance, which may be semidefinite."""
     matrix = np.asarray(covariance, dtype=np.float64)
     if matrix.shape != (size, size) or not np.isfinite(matrix).all():
         raise ValueError(f"{name}: got shape {matrix.shape}, expected finite ({size}, {size})")
-    return spectral_root(matrix)
+    return _spectral_root(matrix)
 
 
-def spectral_root(matrix: Array) -> Array:
+def _spectral_root(matrix: Array) -> Array:
     values, vectors = np.linalg.eigh(matrix)
     scaled: Array = vectors * np.sqrt(np.maximum(values, 0.0))[..., None, :]
     return scaled
 
 
-def noise_root(f: object, x: Array, dt: float | None) -> Array:
+def _noise_root(f: object, x: Array, dt: float | None) -> Array:
     assert isinstance(f, MotionModel)
     assert dt is not None
-    return spectral_root(np.asarray(f.process_noise(x, dt)))
+    return _spectral_root(np.asarray(f.process_noise(x, dt)))
 
 
-def drawn(rng: np.random.Generator, factor: Array, count: int) -> Array:
+def _drawn(rng: np.random.Generator, factor: Array, count: int) -> Array:
     numbers = rng.standard_normal((count, factor.shape[-1]))
     return np.asarray((factor @ numbers[..., None])[..., 0])
 
 
-def moved(f: MotionModel | ArrayLike | Function, x: Array, dt: float | None) -> Array:
+def _moved(f: MotionModel | ArrayLike | Function, x: Array, dt: float | None) -> Array:
     if isinstance(f, MotionModel):
         assert dt is not None
         return np.asarray(f(x, dt))
@@ -154,14 +156,14 @@ def moved(f: MotionModel | ArrayLike | Function, x: Array, dt: float | None) -> 
     return x @ np.asarray(f, dtype=np.float64).T
 
 
-def seen(h: MeasurementModel | ArrayLike | Function, x: Array) -> Array:
+def _seen(h: MeasurementModel | ArrayLike | Function, x: Array) -> Array:
     if isinstance(h, MeasurementModel) or callable(h):
         rows = [np.atleast_1d(np.asarray(h(state.copy()), dtype=np.float64)) for state in x]
         return np.stack(rows)
     return x @ np.asarray(h, dtype=np.float64).T
 
 
-def wrapped(values: Array, angles: list[int]) -> Array:
+def _wrapped(values: Array, angles: list[int]) -> Array:
     """Angles in (-pi, pi]."""
     if angles:
         turns = np.ceil(values[..., angles] / (2 * np.pi) - 0.5)
