@@ -9,7 +9,7 @@ import pytest
 import thing_kin as tk
 from thing_kin import estimation, interop, kdl, lie, robots, terms
 
-MODULES = (tk, lie, robots, terms, kdl, interop, estimation)
+MODULES = (tk, lie, robots, terms, kdl, interop, estimation, estimation.models)
 
 
 def public_things() -> Iterator[tuple[str, object]]:
@@ -33,7 +33,9 @@ def class_and_members(path: str, thing: type) -> Iterator[tuple[str, object]]:
 
 THINGS = dict(public_things())
 PROPERTIES = {path for path, thing in THINGS.items() if isinstance(thing, property)}
-MODULES_ALONE = {module.__name__ for module in (lie, robots, terms, kdl, estimation)}
+MODULES_ALONE = {
+    module.__name__ for module in (lie, robots, terms, kdl, estimation, estimation.models)
+}
 WITH_EXAMPLES = sorted(set(THINGS) - PROPERTIES - MODULES_ALONE)
 
 

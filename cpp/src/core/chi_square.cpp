@@ -29,10 +29,11 @@ double stirling_rest(double a) {
   return kHalfLogTwoPi + 0.5 * std::log(a) + series;
 }
 
-// r - ln(1 + r), exact for small r too.
-double log_excess(double r) {
+// r - ln(1 + r) for r = t/a - 1, exact for small r and for small t too.
+double log_excess(double a, double t) {
+  const double r = (t - a) / a;
   if (std::abs(r) > 0.1) {
-    return r - std::log1p(r);
+    return r - std::log(t / a);
   }
   double sum = 0.0;
   double power = r * r;
@@ -44,7 +45,7 @@ double log_excess(double r) {
 
 // t^a e^-t / Gamma(a + 1)
 double poisson_term(double a, double t) {
-  return std::exp(-a * log_excess((t - a) / a) - stirling_rest(a));
+  return std::exp(-a * log_excess(a, t) - stirling_rest(a));
 }
 
 // Both tails of the regularized incomplete gamma function: the power series below its bulk, the

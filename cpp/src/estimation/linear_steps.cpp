@@ -70,7 +70,8 @@ bool see(const Gaussian& state, const LinearMeasurement& measured, Innovation& s
     seen.S[i] += seen.R[i];
   }
   kernels::symmetrize<0>(seen.S.data(), m);
-  Entries S = seen.S;
+  Entries S;
+  std::copy_n(seen.S.data(), m * m, S.data());
   if (!kernels::keep_positive<0>(S.data(), m, kMostInflation)) {
     return false;
   }
@@ -81,7 +82,7 @@ bool see(const Gaussian& state, const LinearMeasurement& measured, Innovation& s
       return false;
     }
   }
-  seen.S = S;
+  std::copy_n(S.data(), m * m, seen.S.data());
   return kernels::cholesky<0>(seen.S.data(), seen.root.data(), m);
 }
 
