@@ -17,7 +17,6 @@ R = np.array([[2e-4, 1e-5, 3e-5], [1e-5, 1e-4, -2e-5], [3e-5, -2e-5, 4e-4]])
 P0 = np.array([[3e-4, -5e-5, 2e-5], [-5e-5, 2e-4, 1e-5], [2e-5, 1e-5, 1e-4]])
 
 
-
 def same_pose(a, b, atol):
     np.testing.assert_allclose(est.pose_difference(a, b), np.zeros_like(np.asarray(a)), atol=atol)
 
