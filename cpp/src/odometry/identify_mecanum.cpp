@@ -21,7 +21,7 @@ constexpr double kSmallStep = 1e-2;
 // A record that leaves more than this of the prior's standard deviation has not shown the value.
 constexpr double kShown = 0.5;
 constexpr double kTurned = 0.5;       // rad: less is no turning
-constexpr double kLeastTravel = 0.1;  // m, of the rims
+constexpr double kLeastRun = 0.1;  // m, of the rims
 constexpr std::size_t kLeastMotions = 4;
 constexpr double kChiSquare95 = 7.8147;  // 3 degrees of freedom
 
@@ -297,7 +297,7 @@ MecanumIdentification identify_mecanum(std::span<const double> t,
     throw InvalidArgument("t_reference", "no reference pose while the wheels were read",
                           "two records of one time");
   }
-  if (fit.used() < kLeastMotions || fit.travel() < kLeastTravel) {
+  if (fit.used() < kLeastMotions || fit.travel() < kLeastRun) {
     fit.held.fill(true);
     report(fit, result);
     return result;
