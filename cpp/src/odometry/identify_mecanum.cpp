@@ -20,7 +20,7 @@ constexpr double kConvergedStep = 1e-5;  // of a standard deviation
 constexpr double kSmallStep = 1e-2;
 // A record that leaves more than this of the prior's standard deviation has not shown the value.
 constexpr double kShown = 0.5;
-constexpr double kTurned = 0.5;       // rad: less is no turning
+constexpr double kTurned = 0.5;    // rad: less is no turning
 constexpr double kLeastRun = 0.1;  // m, of the rims
 constexpr std::size_t kLeastMotions = 4;
 constexpr double kChiSquare95 = 7.8147;  // 3 degrees of freedom
