@@ -15,6 +15,7 @@ using ChainClass = py::class_<Chain>;
 void bind_simd(py::module_& m);
 
 void bind_so3(py::module_& lie);
+void bind_se2(py::module_& lie);
 void bind_se3(py::module_& lie, py::module_& top);
 
 void bind_singular_value_filter(py::module_& m);

@@ -1,6 +1,6 @@
 #pragma once
 
-// One function a concept; estimation_module.cpp calls them in the order of the layers.
+// One function a concept; estimation_module.cpp calls them layer by layer.
 
 #include <pybind11/pybind11.h>
 

@@ -12,8 +12,10 @@ PYBIND11_MODULE(_core, m) {
 
   bind_simd(m);
 
-  py::module_ lie = m.def_submodule("lie", "Rotations SO(3) and rigid transforms SE(3).");
+  py::module_ lie =
+      m.def_submodule("lie", "Rotations SO(3), planar poses SE(2) and rigid transforms SE(3).");
   bind_so3(lie);
+  bind_se2(lie);
   bind_se3(lie, m);
 
   bind_singular_value_filter(m);

@@ -60,6 +60,8 @@ class Argument:
     def names(self) -> tuple[str, ...]:
         """What a message may begin with: where two arguments don't fit, either may be at fault."""
         pairs = {"lower": "upper", "upper": "lower", "J": "e"}
+        pairs |= {"t": "wheel_angles", "t_reference": "poses", "poses": "t_reference"}
+        pairs |= {"wheel_angles": "t", "wheel_speeds": "t"}
         return (self.name, pairs.get(self.name, self.name))
 
 
@@ -125,16 +127,31 @@ MOTION = [
 LIE = [
     Argument(name, argument, good, getattr(lie, name), moderate=True)
     for name in lie.__all__
+    if name not in ("se2_compose", "se2_between")
     for argument, good in [
         ("quaternion", np.array([0.5, 0.5, -0.5, 0.5])) if name == "rotation_from_quaternion"
         else ("R", T[:3, :3])
         if name in ("so3_log", "quaternion_from_rotation", "rpy_from_rotation")
         else ("rpy", XI[3:]) if name == "rotation_from_rpy"
         else ("T", T) if name in ("se3_log", "se3_adjoint")
+        else ("pose", XI[3:]) if name in ("se2_log", "se2_adjoint", "se2_inverse")
         else ("phi", XI[3:]) if name.startswith("so3")
+        else ("xi", XI[3:]) if name.startswith("se2")
         else ("xi", XI)
     ]
 ]  # fmt: skip
+
+
+def composed(name: str, argument: str) -> Callable[[Any], Any]:
+    known = {"a": XI[:3], "b": XI[:3]}
+    return lambda value: getattr(lie, name)(**{**known, argument: value})
+
+
+LIE += [
+    Argument(name, argument, XI[3:], composed(name, argument), moderate=True)
+    for name in ("se2_compose", "se2_between")
+    for argument in ("a", "b")
+]
 LINALG = [
     Argument("pinv", "J", J, tk.pinv),
     Argument("pinv damped", "J", J, lambda v: tk.pinv(v, damping=1e-3)),
@@ -444,7 +461,6 @@ PATH = [
 ]
 # thing_kin.estimation, one list for each family of concepts.
 FILTERS: list[Argument] = []
-ODOMETRY: list[Argument] = []
 
 
 def fresh() -> est.BaseLocalizer:
@@ -516,6 +532,112 @@ LOCALIZER = [
         for name, good in (("pose", XI[:3]), ("covariance", np.eye(3)))
     ),
 ]  # fmt: skip
+
+
+TWISTS = np.stack([XI[:3], -XI[:3], XI[3:], XI[:3]])
+STAMPS = np.array([0.0, 0.1, 0.3, 0.4])
+P3 = np.diag([0.1, 0.2, 0.3])
+MECANUM = est.MecanumOdometry(0.07, 0.4)
+DRIVE = est.DifferentialDriveOdometry(0.1, 0.4)
+WHEELS = MECANUM.wheel_speeds(TWISTS)
+RECORD_T = np.linspace(0.0, 8.0, 81)
+RECORD_ANGLES = np.cumsum(
+    0.1 * MECANUM.wheel_speeds(np.stack([np.cos(RECORD_T), np.sin(RECORD_T), RECORD_T / 8], 1)),
+    axis=0,
+)
+RECORD_POSES = MECANUM.integrate_angles(RECORD_T, RECORD_ANGLES).poses
+
+
+def reckoned(method: Callable[..., Any], name: str, **others: Any) -> Callable[[Any], Any]:
+    return lambda value: method(**{**others, name: value}).covariances
+
+
+def identified(name: str) -> Callable[[Any], Any]:
+    known = {
+        "t": RECORD_T,
+        "wheel_angles": RECORD_ANGLES,
+        "t_reference": RECORD_T,
+        "poses": RECORD_POSES,
+    }
+    return lambda value: est.identify_mecanum(**{**known, name: value}).covariance
+
+
+def hand_with(name: str) -> Callable[[Any], Any]:
+    known = {"robot": ROBOT, "q_arm": Q[:6], "estimate": (Q[6:], P3)}
+    return lambda value: est.end_effector(**{**known, name: value}).task_covariance
+
+
+RECKONING = {"pose": Q[6:], "covariance": P3, "twist_covariance": P3}
+ODOMETRY = [
+    Argument("integrate_twist", "pose", Q[6:], lambda v: est.integrate_twist(v, Q[6:], 0.1)),
+    Argument("integrate_twist", "twist", Q[6:], lambda v: est.integrate_twist(Q[6:], v, 0.1)),
+    Argument("jacobians", "pose", Q[6:], lambda v: est.integrate_twist_jacobians(v, Q[6:], 0.1)[0]),
+    Argument(
+        "jacobians", "twist", Q[6:], lambda v: est.integrate_twist_jacobians(Q[6:], v, 0.1)[0]
+    ),
+    Argument("pose_difference", "a", Q[6:], lambda v: est.pose_difference(v, Q[6:])),
+    Argument("pose_difference", "b", Q[6:], lambda v: est.pose_difference(Q[6:], v)),
+    Argument("angles_from_ticks", "ticks", WHEELS, lambda v: est.angles_from_ticks(v, 360)),
+    Argument("MecanumOdometry.twist", "wheel_speeds", WHEELS[0], MECANUM.twist),
+    Argument("MecanumOdometry.wheel_speeds", "twist", XI[:3], MECANUM.wheel_speeds),
+    Argument("MecanumOdometry.slip", "wheel_speeds", WHEELS[0], MECANUM.slip),
+    Argument("DifferentialDriveOdometry.twist", "wheel_speeds", XI[:2], DRIVE.twist),
+    Argument(
+        "DifferentialDriveOdometry.wheel_speeds",
+        "twist",
+        np.array([0.3, 0.0, 0.2]),
+        DRIVE.wheel_speeds,
+    ),
+    Argument(
+        "DifferentialDriveOdometry",
+        "wheel_radius",
+        np.array([0.1, 0.2]),
+        lambda v: np.array(est.DifferentialDriveOdometry(v, 0.4).wheel_radius),
+    ),
+    *(
+        Argument(label, name, good, reckoned(method, name, **{**RECKONING, **record}))
+        for label, method, record in (
+            ("dead_reckon", est.dead_reckon, {"twists": TWISTS, "dt": 0.1}),
+            ("integrate", MECANUM.integrate, {"t": STAMPS, "wheel_speeds": WHEELS}),
+            ("integrate_angles", MECANUM.integrate_angles, {"t": STAMPS, "wheel_angles": WHEELS}),
+            ("drive integrate", DRIVE.integrate, {"t": STAMPS, "wheel_speeds": WHEELS[:, :2]}),
+            (
+                "drive integrate_angles",
+                DRIVE.integrate_angles,
+                {"t": STAMPS, "wheel_angles": WHEELS[:, :2]},
+            ),
+        )
+        for name, good in {**RECKONING, **record}.items()
+        if name != "dt"
+    ),
+    Argument(
+        "integrate",
+        "slip_variance",
+        XI[:3],
+        reckoned(MECANUM.integrate, "slip_variance", t=STAMPS, wheel_speeds=WHEELS),
+    ),
+    *(
+        Argument("identify_mecanum", name, good, identified(name))
+        for name, good in {
+            "t": RECORD_T,
+            "wheel_angles": RECORD_ANGLES,
+            "t_reference": RECORD_T,
+            "poses": RECORD_POSES,
+            "mount": XI[3:],
+            "mount_std": XI[3:],
+        }.items()
+    ),
+    *(
+        Argument("end_effector", name, good, hand_with(name))
+        for name, good in {
+            "q_arm": Q[:6],
+            "estimate": Q[6:],
+            "joint_std": np.full(6, 0.1),
+            "joint_covariance": np.eye(6),
+            "mount_covariance": np.eye(6),
+        }.items()
+    ),
+]
 ARGUMENTS = [
     *FILTERS,
     *ODOMETRY,
@@ -565,6 +687,11 @@ OPTIONAL = {
     "heading",
     "max_joint_step",
     "warm_start",
+    "covariance",
+    "twist_covariance",
+    "slip_variance",
+    "joint_covariance",
+    "mount_covariance",
 }
 
 # Labels where such a name is not optional.
@@ -578,6 +705,7 @@ REQUIRED = (
     "terms.Cone",
     "terms.BaseDistance",
     "terms.SeedDistance of",
+    "identify_mecanum",
     "at_most",
     "at_least",
     "between",

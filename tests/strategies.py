@@ -118,6 +118,20 @@ def twists(draw: st.DrawFn, max_angle: float = np.pi) -> Vector:
 
 
 @st.composite
+def planar_twists(draw: st.DrawFn, max_angle: float = np.pi) -> Vector:
+    """(vx, vy, omega) of SE(2), degenerate angles of both signs among them often."""
+    x, y = draw(st.tuples(*[st.floats(-3.0, 3.0)] * 2))
+    degenerate = st.sampled_from([a for a in DEGENERATE_ANGLES if a <= max_angle])
+    angle = draw(degenerate | st.floats(0.0, max_angle))
+    return np.array([x, y, angle * draw(st.sampled_from((-1.0, 1.0)))])
+
+
+def planar_poses() -> st.SearchStrategy[Vector]:
+    """(x, y, theta) with |theta| <= pi."""
+    return planar_twists()
+
+
+@st.composite
 def rotations(draw: st.DrawFn, max_angle: float = np.pi) -> NDArray[np.float64]:
     return rotation_matrix(draw(rotation_vectors(max_angle)))
 

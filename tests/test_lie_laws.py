@@ -1,4 +1,4 @@
-"""The laws that SO(3) and SE(3) share, run over both, degenerate rotations among the examples."""
+"""The laws that SO(3), SE(2) and SE(3) share, degenerate rotations among the examples."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,7 +12,14 @@ from scipy.linalg import expm
 
 import thing_kin as tk
 from oracles import assert_close, derivative, hat, vee
-from strategies import poses, rotation_vectors, rotations, twists
+from strategies import (
+    planar_poses,
+    planar_twists,
+    poses,
+    rotation_vectors,
+    rotations,
+    twists,
+)
 
 
 @dataclass(frozen=True)
@@ -25,9 +32,23 @@ class Group:
     matrix: Callable  # of a vector, in the Lie algebra
     ad: Callable  # of a vector: its bracket with another
     Ad: Callable  # of an element
+    vee: Callable = vee  # the vector of a velocity in the Lie algebra
+    read: Callable = lambda X: X  # of what the library takes for an element: its matrix
+    write: Callable = lambda X: X  # and back
+
+    def exp(self, x):
+        return self.read(getattr(tk.lie, f"{self.name}_exp")(x))
+
+    def log(self, X):
+        return getattr(tk.lie, f"{self.name}_log")(self.write(X))
+
+    @property
+    def size(self) -> int:
+        """How many numbers a vector has."""
+        return 6 if self.name == "se3" else 3
 
     def __getattr__(self, operation: str) -> Callable:
-        """exp, log, left_jacobian ... of this group, from thing_kin.lie."""
+        """left_jacobian, right_jacobian ... of this group, from thing_kin.lie."""
         return getattr(tk.lie, f"{self.name}_{operation}")
 
 
@@ -42,10 +63,47 @@ def twist_bracket(xi):
     return np.block([[w, v], [np.zeros((3, 3)), w]])
 
 
+def planar_matrix(pose):
+    """(3, 3) of (x, y, theta), or several."""
+    x, y, theta = np.moveaxis(np.asarray(pose), -1, 0)
+    c, s, zero = np.cos(theta), np.sin(theta), np.zeros_like(theta)
+    rows = [[c, -s, x], [s, c, y], [zero, zero, zero + 1.0]]
+    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+
+
+def planar_pose(X):
+    theta = np.arctan2(X[..., 1, 0] - X[..., 0, 1], X[..., 0, 0] + X[..., 1, 1])
+    return np.stack([X[..., 0, 2], X[..., 1, 2], theta], axis=-1)
+
+
+def planar_velocity(xi):
+    return np.array([[0.0, -xi[2], xi[0]], [xi[2], 0.0, xi[1]], [0.0, 0.0, 0.0]])
+
+
+def planar_vee(S):
+    return np.array([S[0, 2], S[1, 2], (S[1, 0] - S[0, 1]) / 2])
+
+
+def planar_bracket(xi):
+    return np.array([[0.0, -xi[2], xi[1]], [xi[2], 0.0, -xi[0]], [0.0, 0.0, 0.0]])
+
+
 SO3 = Group("so3", rotation_vectors, rotations, hat, hat, lambda R: R)
 SE3 = Group("se3", twists, poses, twist_matrix, twist_bracket, tk.lie.se3_adjoint)
 
-groups = pytest.mark.parametrize("group", [SO3, SE3], ids=lambda group: group.name)
+SE2 = Group(
+    "se2",
+    planar_twists,
+    lambda: planar_poses().map(planar_matrix),
+    planar_velocity,
+    planar_bracket,
+    lambda X: tk.lie.se2_adjoint(planar_pose(X)),
+    planar_vee,
+    planar_matrix,
+    planar_pose,
+)
+
+groups = pytest.mark.parametrize("group", [SO3, SE2, SE3], ids=lambda group: group.name)
 # Below pi by what rounding may take: at pi log has two right answers (test_so3.py).
 BELOW_PI = np.pi - 1e-9
 ATOL = 1e-13  # translations of up to ten metres
@@ -70,7 +128,8 @@ def test_log_undoes_exp(group: Group, data: st.DataObject):
 def test_exp_undoes_log_even_at_pi(group: Group, data: st.DataObject):
     X = data.draw(group.elements())
     assert_close(group.exp(group.log(X)), X, ATOL)
-    assert np.linalg.norm(group.log(X)[-3:]) <= np.pi + 1e-15  # two units in its last place
+    turn = group.log(X)[2:] if group is SE2 else group.log(X)[-3:]
+    assert np.linalg.norm(turn) <= np.pi + 1e-15  # two units in its last place
 
 
 @groups
@@ -103,8 +162,8 @@ def test_the_left_jacobian_is_the_slope_of_exp(group: Group, data: st.DataObject
     x = data.draw(group.vectors(max_angle=7.0))
     slopes = np.moveaxis(derivative(group.exp, x), -1, 0)
     inverse = np.linalg.inv(group.exp(x))
-    left = np.stack([vee(slope @ inverse) for slope in slopes], axis=-1)
-    right = np.stack([vee(inverse @ slope) for slope in slopes], axis=-1)
+    left = np.stack([group.vee(slope @ inverse) for slope in slopes], axis=-1)
+    right = np.stack([group.vee(inverse @ slope) for slope in slopes], axis=-1)
     assert_close(group.left_jacobian(x), left, atol=1e-10)
     assert_close(group.right_jacobian(x), right, atol=1e-10)
 
@@ -142,17 +201,39 @@ def test_the_inverses_are_inverses(group: Group, data: st.DataObject):
 @groups
 @pytest.mark.parametrize("turns", [1, -1, 2])
 def test_at_whole_turns_there_is_no_inverse(group: Group, turns: int):
-    x = np.append(np.zeros(3 if group is SE3 else 0), [0.0, 0.0, 2 * np.pi * turns])
+    x = np.append(np.zeros(group.size - 1), 2 * np.pi * turns)
     for inverse in (group.left_jacobian_inverse, group.right_jacobian_inverse):
         with pytest.raises(ValueError, match=r"^(phi|xi): got a rotation by a whole number"):
             inverse(x)
         assert np.all(np.isfinite(inverse(0.999 * x)))
 
 
+@given(planar_poses(), planar_poses())
+def test_planar_poses_compose_as_their_matrices(a, b):
+    A, B = planar_matrix(a), planar_matrix(b)
+    assert_close(planar_matrix(tk.lie.se2_compose(a, b)), A @ B, ATOL)
+    assert_close(planar_matrix(tk.lie.se2_inverse(a)), np.linalg.inv(A), ATOL)
+    assert_close(planar_matrix(tk.lie.se2_between(a, b)), np.linalg.inv(A) @ B, ATOL)
+    for pose in (tk.lie.se2_compose(a, b), tk.lie.se2_inverse(a), tk.lie.se2_between(a, b)):
+        assert -np.pi < pose[2] <= np.pi
+
+
+def test_several_planar_poses_are_a_loop():
+    rng = np.random.default_rng(2)
+    a, b = rng.normal(size=(5, 3)), rng.normal(size=(5, 3))
+    for function in (tk.lie.se2_compose, tk.lie.se2_between):
+        together = [function(x, y) for x, y in zip(a, b, strict=True)]
+        assert_array_equal(function(a, b), together)
+        assert_array_equal(function(a[0], b), [function(a[0], y) for y in b])
+        with pytest.raises(ValueError, match=r"^b: got 4 poses, expected 5"):
+            function(a, b[:4])
+    assert_array_equal(tk.lie.se2_inverse(a), [tk.lie.se2_inverse(x) for x in a])
+
+
 @groups
 def test_a_batch_is_a_loop(group: Group):
     rng = np.random.default_rng(1)
-    x = rng.uniform(-1.5, 1.5, (6, 6 if group is SE3 else 3))
+    x = rng.uniform(-1.5, 1.5, (6, group.size))
     x[0] = 0.0
     of_vectors = [group.exp, group.left_jacobian, group.right_jacobian]
     of_vectors += [group.left_jacobian_inverse, group.right_jacobian_inverse]

@@ -22,7 +22,7 @@ struct HandArrays {
   Array task_covariance;
 };
 
-// An object with `pose` and `covariance` (of BaseLocalizer.estimate), a pair of arrays, or a pose
+// An object with `pose` and `covariance` (of BaseLocalizer.estimate), a tuple of the two, or a pose
 // that is exactly known.
 struct BaseArrays {
   Batch pose;
@@ -36,8 +36,7 @@ BaseArrays read_base(const py::object& estimate) {
   if (py::hasattr(estimate, "pose") && py::hasattr(estimate, "covariance")) {
     pose = estimate.attr("pose");
     covariance = estimate.attr("covariance");
-  } else if ((py::isinstance<py::tuple>(estimate) || py::isinstance<py::list>(estimate)) &&
-             py::len(estimate) == 2) {
+  } else if (py::isinstance<py::tuple>(estimate) && py::len(estimate) == 2) {
     pose = estimate[py::int_(0)];
     covariance = estimate[py::int_(1)];
   }
@@ -218,9 +217,9 @@ robot : Chain
     On an omnidirectional base, or an arm alone that stands on a base at `mount`.
 q_arm : (n,) or (N, n), rad and m
     The arm's joints, in their order in q; those of the base are the estimate's.
-estimate : object, pair or array
+estimate : object, tuple or array
     Of the base: what has `pose` (3,) and `covariance` (3, 3), as BaseLocalizer.estimate() gives,
-    covariance in world axes; the two as a pair; or a pose alone, exactly known. Or N of each.
+    covariance in world axes; a tuple of the two; or a pose alone, exactly known. Or N of each.
 joint_std : float or (n,), rad and m
     Standard deviations of the joints.
 joint_covariance : (n, n), optional
@@ -251,7 +250,7 @@ Examples
 >>> base = ([1.0, 2.0, 0.5], np.diag([1e-4, 1e-4, 1e-6]))
 >>> hand = est.end_effector(robot, q_arm, base, joint_std=1e-3)
 >>> np.sqrt(np.diag(hand.covariance)[:3]).round(4)  # of the position, m
-array([0.0101, 0.0102, 0.0014])
+array([0.01  , 0.0101, 0.0011])
 )");
 }
 

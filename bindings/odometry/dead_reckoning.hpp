@@ -24,6 +24,9 @@ Batch read_moderate(const ArrayLike& argument, const char* name, py::ssize_t siz
 Eigen::Matrix3d read_planar_covariance(const OptionalArray& argument, const char* name,
                                        const Eigen::Matrix3d& fallback);
 
+/// Shape of what numpy makes of an argument; throws InvalidArgument if it can make nothing.
+std::vector<py::ssize_t> shape_of_any(const ArrayLike& argument, const char* name);
+
 /// The start of a record: `pose` and `covariance`.
 PlanarEstimate read_start(const ArrayLike& pose, const OptionalArray& covariance);
 

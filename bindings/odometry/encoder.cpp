@@ -19,13 +19,12 @@ void check_ticks(double value, const char* name) {
 }
 
 Batch read_ticks(const ArrayLike& ticks) {
-  const auto array = py::module_::import("numpy").attr("asarray")(ticks);
-  const py::tuple shape = array.attr("shape");
-  const py::ssize_t wheels = shape.size() == 2 ? shape[1].cast<py::ssize_t>() : 4;
+  const std::vector<py::ssize_t> shape = shape_of_any(ticks, "ticks");
+  const py::ssize_t wheels = shape.size() == 2 ? shape[1] : 4;
   if (wheels < 1 || wheels > 64) {
     throw InvalidArgument("ticks", std::to_string(wheels) + " columns", "from 1 to 64");
   }
-  Batch batch = read(array, "ticks", {wheels});
+  Batch batch = read(ticks, "ticks", {wheels});
   check_magnitude(batch, "ticks");
   if (batch.single) {
     throw InvalidArgument("ticks", "a single row", "(N, wheels)");
@@ -82,8 +81,8 @@ Examples
 --------
 >>> from thing_kin import estimation as est
 >>> est.angles_from_ticks([[65530], [10]], ticks_per_turn=360, counter_range=65536).round(3)
-array([[1143.717],
-       [1143.997]])
+array([[1143.714],
+       [1143.994]])
 )");
 }
 

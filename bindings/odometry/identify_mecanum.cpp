@@ -1,5 +1,7 @@
 #include "thing_kin/odometry/identify_mecanum.hpp"
 
+#include <cmath>
+
 #include <pybind11/stl.h>
 
 #include "estimation_bindings.hpp"
@@ -20,6 +22,22 @@ struct Identified {
   MecanumIdentification result;
   WheelOrder order;
 };
+
+// No robot goes farther, and no product of such numbers overflows.
+void check_size(const Batch& batch, const char* name) {
+  constexpr double kFarthest = 1e9;
+  for (py::ssize_t i = 0; i < batch.count * batch.size; ++i) {
+    if (std::abs(batch.data[i]) > kFarthest) {
+      throw InvalidArgument(name, text(batch.data[i]), "numbers up to " + text(kFarthest));
+    }
+  }
+}
+
+Eigen::Vector3d read_mount(const ArrayLike& argument, const char* name) {
+  const Batch batch = read(argument, name, {3}, false);
+  check_size(batch, name);
+  return Map3(batch.data);
+}
 
 double optional_number(const py::object& value, const char* name) {
   return value.is_none() ? Options::kNone : *read(value, name, {}, false).data;
@@ -75,7 +93,7 @@ std::string report_of(const Identified& identified) {
 
 std::vector<Eigen::Vector4d> sorted_angles(const ArrayLike& wheel_angles, const WheelOrder& order) {
   const Batch rows = read(wheel_angles, "wheel_angles", {4});
-  check_magnitude(rows, "wheel_angles");
+  check_size(rows, "wheel_angles");
   if (rows.single) {
     throw InvalidArgument("wheel_angles", "shape (4,)", "(N, 4) with a row for each stamp");
   }
@@ -87,7 +105,8 @@ std::vector<Eigen::Vector4d> sorted_angles(const ArrayLike& wheel_angles, const 
 }
 
 std::vector<double> stamps_of(const ArrayLike& t, const char* name) {
-  const py::ssize_t length = py::len(py::module_::import("numpy").attr("atleast_1d")(t));
+  const std::vector<py::ssize_t> shape = shape_of_any(t, name);
+  const py::ssize_t length = shape.empty() ? 2 : shape[0];
   const Batch stamps = read(t, name, {length}, false);
   check_magnitude(stamps, name);
   return {stamps.data, stamps.data + length};
@@ -95,7 +114,7 @@ std::vector<double> stamps_of(const ArrayLike& t, const char* name) {
 
 std::vector<Pose2> poses_of(const ArrayLike& poses) {
   const Batch rows = read(poses, "poses", {3});
-  check_magnitude(rows, "poses");
+  check_size(rows, "poses");
   if (rows.single) {
     throw InvalidArgument("poses", "shape (3,)", "(M, 3) with a row for each stamp");
   }
@@ -194,9 +213,10 @@ void bind_fit(py::class_<Identified>& c) {
       [](const Identified& self) { return matrix_of(self.result.start.covariance); },
       "(3, 3), in world axes.");
   bind_array(c, "initial_pose", &Result::initial_pose,
-             "(3,), m and rad: the same place, with the yaw that fits the whole run.");
+             "(3,), m and rad: the robot at t[0], its place as first seen, its yaw as fits the "
+             "whole run.");
   bind_array(c, "aligned_pose", &Result::aligned_pose,
-             "(3,), m and rad: start of the path that fits the whole run best.");
+             "(3,), m and rad: the robot at t[0], place and yaw as fit the whole run best.");
   bind_member(c, "rms_nominal", &Result::rms_nominal,
               "Error of position from the reference's first pose, nominal numbers, m.");
   bind_member(c, "rms_unaligned", &Result::rms_unaligned,
@@ -282,8 +302,8 @@ Examples
         options.k = optional_number(k, "k");
         options.wheel_radius_std = wheel_radius_std;
         options.k_std = k_std;
-        options.mount = Map3(read(mount, "mount", {3}, false).data);
-        options.mount_std = Map3(read(mount_std, "mount_std", {3}, false).data);
+        options.mount = read_mount(mount, "mount");
+        options.mount_std = read_mount(mount_std, "mount_std");
         options.clock_offset_std = clock_offset_std;
         options.window = window;
         options.longest_gap = longest_gap;

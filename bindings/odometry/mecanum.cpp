@@ -243,8 +243,8 @@ Examples
 >>> wheels = est.MecanumOdometry(0.07, k=0.369)
 >>> t = np.linspace(0.0, 2.0, 101)
 >>> path = wheels.integrate(t, np.tile(wheels.wheel_speeds([0.2, 0.1, 0.0]), (101, 1)))
->>> path.poses[-1].round(3)
-array([0.4, 0.2, 0. ])
+>>> path.poses[-1, :2].round(3)
+array([0.4, 0.2])
 )");
   odometry.def(
       "integrate_angles",

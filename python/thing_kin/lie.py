@@ -1,4 +1,4 @@
-"""Rotations SO(3), rigid transforms SE(3): exp, log, adjoint, Jacobians, quaternions, rpy."""
+"""Rotations SO(3), planar poses SE(2), rigid transforms SE(3), quaternions, roll-pitch-yaw."""
 
 from thing_kin._core.lie import as_matrix as as_matrix  # for thing_kin.interop, not public
 from thing_kin._core.lie import (
@@ -6,6 +6,16 @@ from thing_kin._core.lie import (
     rotation_from_quaternion,
     rotation_from_rpy,
     rpy_from_rotation,
+    se2_adjoint,
+    se2_between,
+    se2_compose,
+    se2_exp,
+    se2_inverse,
+    se2_left_jacobian,
+    se2_left_jacobian_inverse,
+    se2_log,
+    se2_right_jacobian,
+    se2_right_jacobian_inverse,
     se3_adjoint,
     se3_exp,
     se3_left_jacobian,
@@ -26,6 +36,16 @@ __all__ = [
     "rotation_from_quaternion",
     "rotation_from_rpy",
     "rpy_from_rotation",
+    "se2_adjoint",
+    "se2_between",
+    "se2_compose",
+    "se2_exp",
+    "se2_inverse",
+    "se2_left_jacobian",
+    "se2_left_jacobian_inverse",
+    "se2_log",
+    "se2_right_jacobian",
+    "se2_right_jacobian_inverse",
     "se3_adjoint",
     "se3_exp",
     "se3_left_jacobian",

@@ -118,7 +118,7 @@ EndEffector end_effector(const Chain& chain, const double* q_arm, const PlanarEs
   const Matrix6 J_mount = by_mount(hand);
   EndEffector result;
   result.pose = hand.T_world_hand;
-  const Jacobian arm_noise = hand.arm * uncertainty.joints;
+  const Jacobian arm_noise = hand.arm.lazyProduct(uncertainty.joints);
   const Matrix6 alone = arm_noise.lazyProduct(hand.arm.transpose()) +
                         J_mount * uncertainty.mount * J_mount.transpose();
   const Eigen::Matrix<double, 6, 3> shared = J_base * base.covariance;

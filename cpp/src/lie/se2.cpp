@@ -84,4 +84,19 @@ Eigen::Matrix3d se2_left_jacobian(const Twist2& xi) {
 
 Eigen::Matrix3d se2_right_jacobian(const Twist2& xi) { return se2_left_jacobian(-xi); }
 
+Eigen::Matrix3d se2_left_jacobian_inverse(const Twist2& xi) {
+  const Eigen::Matrix3d left = se2_left_jacobian(xi);
+  const double a = left(0, 0);
+  const double b = left(1, 0);
+  const double size = a * a + b * b;
+  Eigen::Matrix3d inverted = Eigen::Matrix3d::Identity();
+  inverted.topLeftCorner<2, 2>() << a / size, b / size, -b / size, a / size;
+  inverted.topRightCorner<2, 1>() = -turned(a, -b, left.topRightCorner<2, 1>()) / size;
+  return inverted;
+}
+
+Eigen::Matrix3d se2_right_jacobian_inverse(const Twist2& xi) {
+  return se2_left_jacobian_inverse(-xi);
+}
+
 }  // namespace thing_kin

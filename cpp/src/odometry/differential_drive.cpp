@@ -8,7 +8,7 @@ namespace thing_kin {
 
 namespace {
 
-double positive_drive_length(double value, const char* name) {
+double checked_drive_length(double value, const char* name) {
   if (!(std::isfinite(value) && value > 0.0)) {
     throw InvalidArgument(name, text(value), "a finite number > 0");
   }
@@ -19,9 +19,9 @@ double positive_drive_length(double value, const char* name) {
 
 DifferentialDriveOdometry::DifferentialDriveOdometry(double left_radius, double right_radius,
                                                      double track)
-    : left_radius_(positive_drive_length(left_radius, "wheel_radius")),
-      right_radius_(positive_drive_length(right_radius, "wheel_radius")),
-      track_(positive_drive_length(track, "track")) {}
+    : left_radius_(checked_drive_length(left_radius, "wheel_radius")),
+      right_radius_(checked_drive_length(right_radius, "wheel_radius")),
+      track_(checked_drive_length(track, "track")) {}
 
 Twist2 DifferentialDriveOdometry::twist(const Eigen::Vector2d& wheel_speeds) const noexcept {
   const double left = left_radius_ * wheel_speeds[0];

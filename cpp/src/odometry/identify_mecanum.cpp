@@ -16,10 +16,12 @@ constexpr int kMostIterations = 60;
 constexpr int kNoiseIterations = 12;     // after these the noise is taken as known
 constexpr int kMedianIterations = 4;     // before these, outliers are not known
 constexpr double kConvergedStep = 1e-5;  // of a standard deviation
+// Where poses at the ends of the records come and go, steps stay larger, but this does not matter.
+constexpr double kSmallStep = 1e-2;
 // A record that leaves more than this of the prior's standard deviation has not shown the value.
 constexpr double kShown = 0.5;
-constexpr double kTurned = 0.5;  // rad: less is no turning
-constexpr double kLeastTravel = 0.1;  // m, of the rims
+constexpr double kTurned = 0.5;    // rad: less is no turning
+constexpr double kLeastRun = 0.1;  // m, of the rims
 constexpr std::size_t kLeastMotions = 4;
 constexpr double kChiSquare95 = 7.8147;  // 3 degrees of freedom
 
@@ -45,6 +47,7 @@ void hold_what_needs_turning(MecanumFit& fit) {
 }
 
 bool descend(MecanumFit& fit, int& iterations) {
+  double moved = 0.0;
   for (int i = 0; i < kMostIterations; ++i, ++iterations) {
     fit.linearize();
     if (i < kNoiseIterations) {
@@ -52,16 +55,16 @@ bool descend(MecanumFit& fit, int& iterations) {
       fit.weigh();
       fit.rescale();
     }
-    const double moved = fit.step();
+    moved = fit.step();
     if (!std::isfinite(moved)) {
       return false;
     }
-    if (moved < kConvergedStep && i >= 3) {
-      fit.linearize();
-      return true;
+    if (moved < kConvergedStep && i >= kMedianIterations) {
+      break;
     }
   }
-  return false;
+  fit.linearize();
+  return moved < kSmallStep;
 }
 
 // Holds what the record has not shown at its prior; false if there is nothing of the kind.
@@ -179,6 +182,10 @@ void report_paths(const MecanumFit& fit, MecanumIdentification& result) {
   result.aligned_pose = fitted_start(mount, paths, false);
   result.rms_unaligned = rms_from(result.initial_pose, mount, paths);
   result.rms_aligned = rms_from(result.aligned_pose, mount, paths);
+  // From the first window back to the wheels' first stamp.
+  const Pose2 back = inverse(fit.wheels().pose_at(fit.windows().front().t));
+  result.initial_pose = compose(result.initial_pose, back);
+  result.aligned_pose = compose(result.aligned_pose, back);
   WheelPath nominal = fit.wheels();
   nominal.set(std::exp(fit.prior[0]), std::exp(fit.prior[1]), fit.prior[5]);
   const Pose2 nominal_mount = fit.prior.segment<3>(2);
@@ -290,7 +297,7 @@ MecanumIdentification identify_mecanum(std::span<const double> t,
     throw InvalidArgument("t_reference", "no reference pose while the wheels were read",
                           "two records of one time");
   }
-  if (fit.used() < kLeastMotions || fit.travel() < kLeastTravel) {
+  if (fit.used() < kLeastMotions || fit.travel() < kLeastRun) {
     fit.held.fill(true);
     report(fit, result);
     return result;
@@ -302,6 +309,11 @@ MecanumIdentification identify_mecanum(std::span<const double> t,
     converged = descend(fit, result.iterations);
   }
   result.status = converged ? MecanumStatus::kConverged : MecanumStatus::kNotConverged;
+  if (!fit.x.allFinite() || !fit.covariance().allFinite()) {  // nothing is known but the prior
+    fit.x = fit.prior;
+    fit.held.fill(true);
+    result.status = MecanumStatus::kNotConverged;
+  }
   report(fit, result);
   return result;
 }

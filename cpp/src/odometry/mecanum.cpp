@@ -19,7 +19,7 @@ constexpr std::array<const char*, 4> kWheelNames{"fl", "rl", "rr", "fr"};
   throw InvalidArgument("order", got.append(")"), "each of 'fl', 'rl', 'rr', 'fr' once");
 }
 
-double positive_length(double value, const char* name) {
+double checked_mecanum_length(double value, const char* name) {
   if (!(std::isfinite(value) && value > 0.0)) {
     throw InvalidArgument(name, text(value), "a finite number > 0");
   }
@@ -65,8 +65,8 @@ Eigen::Matrix<double, 3, 4> unit_mecanum_matrix() {
 }
 
 MecanumOdometry::MecanumOdometry(double wheel_radius, double k, const WheelOrder& order)
-    : wheel_radius_(positive_length(wheel_radius, "wheel_radius")),
-      k_(positive_length(k, "k")),
+    : wheel_radius_(checked_mecanum_length(wheel_radius, "wheel_radius")),
+      k_(checked_mecanum_length(k, "k")),
       order_(order) {}
 
 Twist2 MecanumOdometry::twist(const Eigen::Vector4d& wheel_speeds) const noexcept {

@@ -15,7 +15,7 @@ namespace {
 constexpr double kMedianSquare = 0.4549;
 constexpr double kLeastSlip = 1e-8;  // m^2/m, rad^2/m: 0.1 mm and 0.1 mrad over a metre
 // A window in which the rims move less than this tells nothing of slip, m.
-constexpr double kLeastLength = 0.01;
+constexpr double kRollingTravel = 0.01;
 
 struct Spread {
   std::vector<double> squares;
@@ -44,7 +44,7 @@ std::array<Spread, 3> spread_over(const std::vector<RelativeMotion>& motions,
       error = se2_adjoint(inverse(rolled[k].pose)) * error + motions[k].error;
       travel += motions[k].travel;
       weight = std::min(weight, weights[k]);
-      whole = whole && motions[k].whole && motions[k].travel > kLeastLength;
+      whole = whole && motions[k].whole && motions[k].travel > kRollingTravel;
     }
     for (std::size_t c = 0; whole && c < 3; ++c) {
       const double value = error[static_cast<Eigen::Index>(c)];

@@ -74,12 +74,13 @@ std::vector<ReferenceWindow> cut_windows(const ReferenceRecord& reference, const
                                          const Pose2& mount, double duration) {
   std::vector<ReferenceWindow> windows;
   const double last = std::min(wheels.last(), reference.t.back());
-  const double first = std::max(wheels.first(), reference.t.front());
-  std::size_t begin =
-      static_cast<std::size_t>(std::ranges::lower_bound(reference.t, first) - reference.t.begin());
+  // Windows begin where the reference does: a clock offset does not move them.
+  const double origin = reference.t.front();
+  auto begin = static_cast<std::size_t>(std::ranges::lower_bound(reference.t, wheels.first()) -
+                                        reference.t.begin());
   while (begin < reference.t.size() && reference.t[begin] <= last) {
-    const double index = std::floor((reference.t[begin] - first) / duration);
-    const double from = first + index * duration;
+    const double index = std::floor((reference.t[begin] - origin) / duration);
+    const double from = origin + index * duration;
     std::size_t end = begin + 1;
     while (end < reference.t.size() && reference.t[end] < from + duration &&
            reference.t[end] <= last) {

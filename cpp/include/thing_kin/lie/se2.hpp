@@ -38,4 +38,8 @@ Eigen::Matrix3d se2_left_jacobian(const Twist2& xi);
 /// exp(xi + d) = exp(xi) exp(J_r(xi) d) to first order; J_r(xi) = J_l(-xi).
 Eigen::Matrix3d se2_right_jacobian(const Twist2& xi);
 
+/// Inverses; singular where omega is 2 pi k, k not 0.
+Eigen::Matrix3d se2_left_jacobian_inverse(const Twist2& xi);
+Eigen::Matrix3d se2_right_jacobian_inverse(const Twist2& xi);
+
 }  // namespace thing_kin

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <string>
@@ -54,16 +55,18 @@ struct MecanumIdentification {
   Eigen::Vector3d reference_std = Eigen::Vector3d::Zero();  ///< of a window's reference pose
   PlanarEstimate start;                                     ///< the robot in the first window
   double start_time = 0.0;
-  Pose2 initial_pose = Pose2::Zero();  ///< start's position and the yaw that fits the whole run
-  Pose2 aligned_pose = Pose2::Zero();  ///< the pose at the start that fits the whole run
-  double rms_nominal = 0.0;            ///< from `start`, nominal parameters, m
-  double rms_unaligned = 0.0;          ///< from initial_pose
-  double rms_aligned = 0.0;            ///< from aligned_pose
-  std::vector<double> times;           ///< of the windows
-  std::vector<double> nees;            ///< of dead reckoning from the first to each
-  double nees_inside = 0.0;            ///< fraction below the 95 % bound of chi-square, 3 degrees
-  int windows = 0;                     ///< relative motions that were used
-  int outliers = 0;                    ///< of these, those that were weighed down
+  /// Of the robot at the wheels' first stamp: as the reference saw its place, with the yaw that
+  /// fits the whole run; and as place and yaw fit the whole run.
+  Pose2 initial_pose = Pose2::Zero();
+  Pose2 aligned_pose = Pose2::Zero();
+  double rms_nominal = 0.0;    ///< from `start`, nominal parameters, m
+  double rms_unaligned = 0.0;  ///< from initial_pose
+  double rms_aligned = 0.0;    ///< from aligned_pose
+  std::vector<double> times;   ///< of the windows
+  std::vector<double> nees;    ///< of dead reckoning from the first to each
+  double nees_inside = 0.0;    ///< fraction below the 95 % bound of chi-square, 3 degrees
+  int windows = 0;             ///< relative motions that were used
+  int outliers = 0;            ///< of these, those that were weighed down
   int iterations = 0;
 };
 
