@@ -534,8 +534,8 @@ LOCALIZER = [
 ]  # fmt: skip
 
 
-TWISTS = np.stack([XI[:3], -XI[:3], XI[3:], XI[:3]])
-STAMPS = np.array([0.0, 0.1, 0.3, 0.4])
+TWISTS = np.stack([XI[:3], -XI[:3], XI[3:], XI[:3], XI[3:]])
+STAMPS = np.array([0.0, 0.1, 0.3, 0.4, 0.6])
 P3 = np.diag([0.1, 0.2, 0.3])
 MECANUM = est.MecanumOdometry(0.07, 0.4)
 DRIVE = est.DifferentialDriveOdometry(0.1, 0.4)
@@ -706,6 +706,11 @@ REQUIRED = (
     "terms.BaseDistance",
     "terms.SeedDistance of",
     "identify_mecanum",
+    "integrate",
+    "jacobians",
+    "dead_reckon",
+    "drive integrate",
+    "se2_",
     "at_most",
     "at_least",
     "between",

@@ -54,7 +54,7 @@ def test_names_of_clearances_say_what_is_near_what() -> None:
         "clearance[0] (the base and obstacle 0)",
         "clearance[1] (the base and obstacle 1)",
     )
-    at = problem.evaluate(np.zeros(robot.dof))
+    at = problem.evaluate(np.zeros(9))
     assert list(at.violations) == ["clearance[1] (the base and obstacle 1)"]
 
 

@@ -60,6 +60,10 @@ SmallMatrix read_joint_noise(const ArrayLike& joint_std, const py::object& joint
   if (n > 0 && !(deviations.minCoeff() >= 0.0)) {
     throw InvalidArgument("joint_std", text(deviations.minCoeff()), "numbers >= 0");
   }
+  constexpr double kLargestDeviation = 1e25;  // so that products of variances are finite
+  if (n > 0 && !(deviations.maxCoeff() <= kLargestDeviation)) {
+    throw InvalidArgument("joint_std", text(deviations.maxCoeff()), "numbers up to 1e25");
+  }
   SmallMatrix noise = deviations.cwiseAbs2().asDiagonal();
   if (joint_covariance.is_none()) {
     return noise;

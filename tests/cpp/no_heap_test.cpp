@@ -11,7 +11,10 @@
 
 #include "random_chain.hpp"
 #include "thing_kin/core/simd.hpp"
+#include "thing_kin/estimation/extended_kalman.hpp"
+#include "thing_kin/estimation/kalman.hpp"
 #include "thing_kin/estimation/pose_belief.hpp"
+#include "thing_kin/estimation/unscented_kalman.hpp"
 #include "thing_kin/inverse/numeric_ik.hpp"
 #include "thing_kin/inverse/task_priority.hpp"
 #include "thing_kin/kinematics/acceleration.hpp"
@@ -123,6 +126,34 @@ TEST(NoHeap, PoseBelief) {
               belief.predict(step, PoseFilter::kExtended);
               belief.predict(step, PoseFilter::kUnscented);
               EXPECT_TRUE(belief.update(measured).accepted);
+            }),
+            0);
+}
+
+TEST(NoHeap, Filters) {
+  const MotionModelPtr motion = constant_twist();
+  const MeasurementModelPtr bearing = range_bearing(Eigen::Vector2d(5.0, 3.0));
+  StateVector z(2);
+  z << 5.5, 0.4;
+  const StateVector x = StateVector::Zero(6);
+  const StateMatrix P = 0.01 * StateMatrix::Identity(6, 6);
+  const StateMatrix R = 0.1 * StateMatrix::Identity(2, 2);
+  const ModelMatrix F = ModelMatrix::Identity(6, 6);
+  const ModelMatrix H = ModelMatrix::Identity(2, 6);
+  const AngleSet& angles = motion->angles();
+  KalmanFilter linear(x, P);
+  ExtendedKalmanFilter extended(x, P, angles);
+  UnscentedKalmanFilter unscented(x, P, {}, angles);
+  UnscentedKalmanFilter root(x, P, {.square_root = true}, angles);
+  EXPECT_EQ(allocations_in([&] {
+              EXPECT_EQ(linear.predict(F, P), FilterStatus::kOk);
+              EXPECT_EQ(linear.update(z, H, R), FilterStatus::kOk);
+              EXPECT_EQ(extended.predict(*motion, 0.1), FilterStatus::kOk);
+              EXPECT_EQ(extended.update(z, *bearing, R), FilterStatus::kOk);
+              for (UnscentedKalmanFilter* filter : {&unscented, &root}) {
+                EXPECT_EQ(filter->predict(*motion, 0.1), FilterStatus::kOk);
+                EXPECT_EQ(filter->update(z, *bearing, R), FilterStatus::kOk);
+              }
             }),
             0);
 }

@@ -1,11 +1,11 @@
 """
-Rotations SO(3) and rigid transforms SE(3).
+Rotations SO(3), planar poses SE(2) and rigid transforms SE(3).
 """
 from __future__ import annotations
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['as_matrix', 'quaternion_from_rotation', 'rotation_from_quaternion', 'rotation_from_rpy', 'rpy_from_rotation', 'se3_adjoint', 'se3_exp', 'se3_left_jacobian', 'se3_left_jacobian_inverse', 'se3_log', 'se3_right_jacobian', 'se3_right_jacobian_inverse', 'so3_exp', 'so3_left_jacobian', 'so3_left_jacobian_inverse', 'so3_log', 'so3_right_jacobian', 'so3_right_jacobian_inverse']
+__all__: list[str] = ['as_matrix', 'quaternion_from_rotation', 'rotation_from_quaternion', 'rotation_from_rpy', 'rpy_from_rotation', 'se2_adjoint', 'se2_between', 'se2_compose', 'se2_exp', 'se2_inverse', 'se2_left_jacobian', 'se2_left_jacobian_inverse', 'se2_log', 'se2_right_jacobian', 'se2_right_jacobian_inverse', 'se3_adjoint', 'se3_exp', 'se3_left_jacobian', 'se3_left_jacobian_inverse', 'se3_log', 'se3_right_jacobian', 'se3_right_jacobian_inverse', 'so3_exp', 'so3_left_jacobian', 'so3_left_jacobian_inverse', 'so3_log', 'so3_right_jacobian', 'so3_right_jacobian_inverse']
 def as_matrix(argument: typing.Any) -> typing.Any:
     """
     Matrix of a pose or rotation as another library has it; anything else as it is.
@@ -95,6 +95,205 @@ def rpy_from_rotation(R: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.f
     >>> import thing_kin as tk
     >>> tk.lie.rpy_from_rotation(tk.transform(rpy=(0.1, 0.2, 0.3))[:3, :3])
     array([0.1, 0.2, 0.3])
+    """
+def se2_adjoint(pose: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Adjoint of T_a_b: takes a twist (vx, vy, omega) in b to the same in a.
+    
+    Parameters
+    ----------
+    pose : (3,) or (N, 3), m and rad
+    
+    Returns
+    -------
+    (3, 3) or (N, 3, 3)
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> tk.lie.se2_adjoint([1.0, 2.0, 0.0])
+    array([[ 1., -0.,  2.],
+           [ 0.,  1., -1.],
+           [ 0.,  0.,  1.]])
+    """
+def se2_between(a: numpy.typing.ArrayLike, b: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Planar pose T_a_b of T_w_a and T_w_b: b as a sees it.
+    
+    Parameters
+    ----------
+    a, b : (3,) or (N, 3), m and rad
+    
+    Returns
+    -------
+    (3,) or (N, 3), theta in (-pi, pi]
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> tk.lie.se2_between([1.0, 0.0, np.pi / 2], [1.0, 1.0, np.pi / 2]).round(3)
+    array([1., 0., 0.])
+    """
+def se2_compose(a: numpy.typing.ArrayLike, b: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Planar pose T_w_b of T_w_a and T_a_b.
+    
+    Parameters
+    ----------
+    a, b : (3,) or (N, 3), m and rad
+        (x, y, theta).
+    
+    Returns
+    -------
+    (3,) or (N, 3), theta in (-pi, pi]
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> tk.lie.se2_compose([1.0, 0.0, np.pi / 2], [1.0, 0.0, 0.0]).round(3)
+    array([1.   , 1.   , 1.571])
+    """
+def se2_exp(xi: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Planar pose of a twist (vx, vy, omega) held for one second.
+    
+    Parameters
+    ----------
+    xi : (3,) or (N, 3), m and rad
+    
+    Returns
+    -------
+    (3,) or (N, 3), m and rad
+        (x, y, theta), theta in (-pi, pi].
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> np.allclose(tk.lie.se2_exp([np.pi / 2, 0.0, np.pi / 2]), [1.0, 1.0, np.pi / 2])
+    True
+    """
+def se2_inverse(pose: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Planar pose T_b_a of T_a_b.
+    
+    Parameters
+    ----------
+    pose : (3,) or (N, 3), m and rad
+    
+    Returns
+    -------
+    (3,) or (N, 3), theta in (-pi, pi]
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> tk.lie.se2_inverse([1.0, 0.0, np.pi / 2]).round(3)
+    array([-0.   ,  1.   , -1.571])
+    """
+def se2_left_jacobian(xi: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Left Jacobian J: exp(xi + d) = exp(J d) exp(xi) to first order in d.
+    
+    Parameters
+    ----------
+    xi : (3,) or (N, 3), m and rad
+    
+    Returns
+    -------
+    (3, 3) or (N, 3, 3)
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> np.array_equal(tk.lie.se2_left_jacobian(np.zeros(3)), np.eye(3))
+    True
+    """
+def se2_left_jacobian_inverse(xi: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Inverse of the left Jacobian.
+    
+    Parameters
+    ----------
+    xi : (3,) or (N, 3), m and rad
+    
+    Returns
+    -------
+    (3, 3) or (N, 3, 3)
+    
+    Raises
+    ------
+    ValueError
+        If omega is a whole number of turns, where the Jacobian is singular.
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> xi = [1.0, 2.0, 0.5]
+    >>> J = tk.lie.se2_left_jacobian(xi)
+    >>> np.allclose(tk.lie.se2_left_jacobian_inverse(xi) @ J, np.eye(3))
+    True
+    """
+def se2_log(pose: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Twist (vx, vy, omega) of a planar pose, omega in (-pi, pi].
+    
+    Parameters
+    ----------
+    pose : (3,) or (N, 3), m and rad
+    
+    Returns
+    -------
+    (3,) or (N, 3), m and rad
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> xi = np.array([1.0, 2.0, 0.5])
+    >>> np.allclose(tk.lie.se2_log(tk.lie.se2_exp(xi)), xi)
+    True
+    """
+def se2_right_jacobian(xi: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Right Jacobian J: exp(xi + d) = exp(xi) exp(J d) to first order in d.
+    
+    Parameters
+    ----------
+    xi : (3,) or (N, 3), m and rad
+    
+    Returns
+    -------
+    (3, 3) or (N, 3, 3)
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> np.array_equal(tk.lie.se2_right_jacobian(np.zeros(3)), np.eye(3))
+    True
+    """
+def se2_right_jacobian_inverse(xi: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Inverse of the right Jacobian.
+    
+    Parameters
+    ----------
+    xi : (3,) or (N, 3), m and rad
+    
+    Returns
+    -------
+    (3, 3) or (N, 3, 3)
+    
+    Raises
+    ------
+    ValueError
+        If omega is a whole number of turns, where the Jacobian is singular.
+    
+    Examples
+    --------
+    >>> import numpy as np, thing_kin as tk
+    >>> xi = [1.0, 2.0, 0.5]
+    >>> J = tk.lie.se2_right_jacobian(xi)
+    >>> np.allclose(tk.lie.se2_right_jacobian_inverse(xi) @ J, np.eye(3))
+    True
     """
 def se3_adjoint(T: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]:
     """
