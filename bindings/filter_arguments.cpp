@@ -221,7 +221,7 @@ FilterStatus Motion::predict(ExtendedKalmanFilter& filter, const StateMatrix* Q,
     matrix(i, F);
     times(F, filter.x().data(), fx.data());
   } else {
-    const StateVector x = filter.x();
+    const StateVector& x = filter.x();
     call_user(function_, x.data(), n_, "f(x)", n_, fx.data());
     differentiate(function_, jacobian_, jacobian_name_, "f(x)", x, n_, filter.angles(), F);
   }
@@ -290,7 +290,7 @@ FilterStatus Sensor::update(ExtendedKalmanFilter& filter, const StateVector& z,
     matrix(i, H);
     times(H, filter.x().data(), hx.data());
   } else {
-    const StateVector x = filter.x();
+    const StateVector& x = filter.x();
     call_user(function_, x.data(), n_, "h(x)", m_, hx.data());
     differentiate(function_, jacobian_, jacobian_name_, "h(x)", x, m_, angles_, H);
   }

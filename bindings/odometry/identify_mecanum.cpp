@@ -98,6 +98,7 @@ std::vector<Eigen::Vector4d> sorted_angles(const ArrayLike& wheel_angles, const 
     throw InvalidArgument("wheel_angles", "shape (4,)", "(N, 4) with a row for each stamp");
   }
   std::vector<Eigen::Vector4d> angles;
+  angles.reserve(static_cast<std::size_t>(rows.count));
   for (py::ssize_t i = 0; i < rows.count; ++i) {
     angles.push_back(order.sorted(Map4(rows.item(i))));
   }
@@ -119,6 +120,7 @@ std::vector<Pose2> poses_of(const ArrayLike& poses) {
     throw InvalidArgument("poses", "shape (3,)", "(M, 3) with a row for each stamp");
   }
   std::vector<Pose2> all;
+  all.reserve(static_cast<std::size_t>(rows.count));
   for (py::ssize_t i = 0; i < rows.count; ++i) {
     all.emplace_back(Map3(rows.item(i)));
   }

@@ -54,7 +54,7 @@ DeadReckoning reckon_twists(const ArrayLike& pose, const ArrayLike& twists, cons
     const double duration = *times.item(times.single ? 0 : i);
     rows.push_back({Map3(held.item(i)) * duration, duration, 0.0});
   }
-  const OptionalArray none = py::reinterpret_borrow<OptionalArray>(py::none());
+  const auto none = py::reinterpret_borrow<OptionalArray>(py::none());
   return reckon(start, rows, {twist_covariance, none});
 }
 
@@ -138,6 +138,7 @@ DeadReckoning reckon(const PlanarEstimate& start, const std::vector<WheelRow>& r
     common = Map3(variance.data).asDiagonal();
   }
   std::vector<NoisyMotion> motions;
+  motions.reserve(rows.size());
   for (const WheelRow& row : rows) {
     motions.push_back({row.xi, slips ? row.travel : row.dt * row.dt});
   }

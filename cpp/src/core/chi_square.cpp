@@ -73,7 +73,8 @@ Tails incomplete_gamma(double a, double t) {
   double c = 1.0 / kTiny;
   double d = 1.0 / b;
   double fraction = d;
-  for (double k = 1.0; k < 1e5; k += 1.0) {
+  for (int i = 1; i < 100'000; ++i) {
+    const auto k = static_cast<double>(i);
     const double numerator = -k * (k - a);
     b += 2.0;
     d = numerator * d + b;

@@ -66,7 +66,7 @@ bool see(const Gaussian& state, const LinearMeasurement& measured, Innovation& s
   kernels::transpose(seen.PHt.data(), turned.data(), n, m);
   kernels::times_transposed<0>(turned.data(), measured.H, seen.S.data(), m, m, n);
   std::copy_n(measured.R, m * m, seen.R.data());
-  for (std::size_t i = 0; i < static_cast<std::size_t>(m * m); ++i) {
+  for (std::size_t i = 0, all = static_cast<std::size_t>(m * m); i < all; ++i) {
     seen.S[i] += seen.R[i];
   }
   kernels::symmetrize<0>(seen.S.data(), m);
@@ -178,7 +178,7 @@ void joseph(const Gaussian& state, const LinearMeasurement& measured, const Inno
   kernels::transpose(K, turned.data(), n, m);
   kernels::times_transposed<N>(KR.data(), turned.data(), noise.data(), n, n, m);
   kernels::congruence<N>(A.data(), state.P.data(), P, n);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(n * n); ++i) {
+  for (std::size_t i = 0, all = static_cast<std::size_t>(n * n); i < all; ++i) {
     P[i] += noise[i];
   }
   kernels::symmetrize<N>(P, n);

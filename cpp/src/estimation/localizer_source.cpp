@@ -9,7 +9,7 @@ namespace {
 
 // The central 95 % of NIS, by the number of entries.
 bool in_band(double nis, int dof) noexcept {
-  static const std::array<std::array<double, 2>, 4> kBand = [] {
+  static const std::array<std::array<double, 2>, 4> bands = [] {
     std::array<std::array<double, 2>, 4> band{};
     for (int k = 1; k <= 3; ++k) {
       band[static_cast<std::size_t>(k)] = {chi_square_quantile(0.025, k),
@@ -17,7 +17,7 @@ bool in_band(double nis, int dof) noexcept {
     }
     return band;
   }();
-  const auto& [low, high] = kBand[static_cast<std::size_t>(dof)];
+  const auto& [low, high] = bands[static_cast<std::size_t>(dof)];
   return low <= nis && nis <= high;
 }
 

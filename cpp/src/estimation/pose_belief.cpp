@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Cholesky>
 
@@ -101,7 +102,7 @@ PoseVerdict correct(Joint& P, Rows H, Vector3d r, const Matrix3d& R, const PoseM
 
 }  // namespace
 
-PoseBelief::PoseBelief(const Pose2& pose, const Matrix3d& P) : pose_(pose), P_(P) {
+PoseBelief::PoseBelief(const Pose2& pose, Matrix3d P) : pose_(pose), P_(std::move(P)) {
   pose_.z() = wrap_angle(pose.z());
 }
 

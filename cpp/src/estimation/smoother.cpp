@@ -42,7 +42,7 @@ void divide_by_factor(const double* L, double* D, int n) noexcept {
 void smoother_gain(const double* P, const double* F, const double* Q, int n, Square& C) noexcept {
   Square predicted;
   kernels::congruence<0>(F, P, predicted.data(), n);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(n * n); ++i) {
+  for (std::size_t i = 0, all = static_cast<std::size_t>(n * n); i < all; ++i) {
     predicted[i] += Q[i];
   }
   kernels::symmetrize<0>(predicted.data(), n);

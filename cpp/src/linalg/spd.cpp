@@ -78,6 +78,8 @@ bool is_positive(const MatrixView& A) noexcept {
   return kernels::is_positive<0>(copy.data(), static_cast<int>(A.rows()));
 }
 
+// A view is passed by value.
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
 bool keep_positive(MatrixSpan A, double most) noexcept {
   kernels::Scratch copy;
   copy_columns(A, copy.data());
@@ -88,6 +90,7 @@ bool keep_positive(MatrixSpan A, double most) noexcept {
   return kept;
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
 bool cholesky(const MatrixView& A, MatrixSpan L) noexcept {
   kernels::Scratch copy;
   copy_columns(A, copy.data());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <Eigen/Cholesky>
@@ -24,7 +25,7 @@ MecanumFit::MecanumFit(const ReferenceRecord& reference, WheelPath wheels,
   prior << std::log(radius_known ? options.wheel_radius : 0.1), std::log(k_known ? options.k : 0.4),
       options.mount, 0.0;
   prior_std << (radius_known ? options.wheel_radius_std : std::log(3.0)),
-      (k_known ? options.k_std : std::log(2.0)), options.mount_std, options.clock_offset_std;
+      (k_known ? options.k_std : std::numbers::ln2), options.mount_std, options.clock_offset_std;
   x = prior;
   for (std::size_t i = 0; i < held.size(); ++i) {
     held[i] = prior_std[static_cast<Eigen::Index>(i)] == 0.0;

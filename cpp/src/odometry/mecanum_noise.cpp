@@ -73,6 +73,7 @@ void MecanumFit::estimate_noise(bool outliers_known) {
     double slip = std::max(slope, kLeastSlip);
     const double reference = std::max(0.0, 0.5 * (V1 - slip * one[c].mean_travel()));
     std::vector<double> own;
+    own.reserve(windows_.size());
     for (const ReferenceWindow& window : windows_) {
       own.push_back(window.variance[i]);
     }

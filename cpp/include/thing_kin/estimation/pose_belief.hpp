@@ -41,7 +41,7 @@ struct PoseVerdict {
 /// between two times then tells what it tells beyond the odometry of that stretch, once.
 class PoseBelief {
  public:
-  PoseBelief(const Pose2& pose, const Eigen::Matrix3d& P);
+  PoseBelief(const Pose2& pose, Eigen::Matrix3d P);
 
   const Pose2& pose() const noexcept { return pose_; }
   const Eigen::Matrix3d& P() const noexcept { return P_; }

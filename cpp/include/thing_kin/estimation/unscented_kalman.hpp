@@ -46,6 +46,8 @@ class UnscentedKalmanFilter : public GaussianFilter {
                         const AngleSet& angles = {});
 
   const UnscentedOptions& options() const noexcept { return options_; }
+  // The factor goes with it.
+  // NOLINTNEXTLINE(bugprone-derived-method-shadowing-base-method)
   void set_P(const MatrixView& P);
 
   /// X <- the points of the present state; false, which no public function leads to, if P has no

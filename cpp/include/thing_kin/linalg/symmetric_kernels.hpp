@@ -142,7 +142,8 @@ bool keep_positive(double* A, int size, double most) noexcept {
   }
   const int n = size_of<N>(size);
   Scratch grown;
-  for (double fraction = 16.0 * n * kEpsilon; fraction <= most; fraction *= 4.0) {
+  double fraction = 16.0 * n * kEpsilon;
+  while (fraction <= most) {
     std::copy_n(A, n * n, grown.data());
     for (int k = 0; k < n; ++k) {
       grown[static_cast<std::size_t>(k * n + k)] *= 1.0 + fraction;
@@ -151,6 +152,7 @@ bool keep_positive(double* A, int size, double most) noexcept {
       std::copy_n(grown.data(), n * n, A);
       return true;
     }
+    fraction *= 4.0;
   }
   return false;
 }
