@@ -172,7 +172,7 @@ void joseph(const Gaussian& state, const LinearMeasurement& measured, const Inno
     }
   }
   Entries KR;
-  Entries turned;
+  Entries turned{};  // GCC 12 does not see that all that is read is written
   Entries noise;
   kernels::times_transposed<N>(K, seen.R.data(), KR.data(), n, m, m);
   kernels::transpose(K, turned.data(), n, m);
