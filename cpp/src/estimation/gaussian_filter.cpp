@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numbers>
 
@@ -49,7 +50,7 @@ double FilterUpdate::log_likelihood() const noexcept {
 
 const double* KnownCovariance::operator()(const double* A, int n, const char* name) {
   const auto size = static_cast<std::size_t>(n * n);
-  if (given_.rows() == n && std::equal(A, A + size, given_.data())) {
+  if (given_.rows() == n && std::memcmp(A, given_.data(), size * sizeof(double)) == 0) {
     return checked_.data();
   }
   const Eigen::Map<const Eigen::MatrixXd> matrix(A, n, n);
