@@ -146,6 +146,39 @@ void add_gained_noise(const Innovation<N, M>& seen, int states, int rows, double
   }
 }
 
+/// P (n, n), by its lower triangle, <- Joseph's form with its products multiplied out,
+///   P - K cross^T - (cross - K S) K^T,
+/// which like it is right to second order in the errors of K. False, and P is anything, where a
+/// variance falls so far that the differences would cancel.
+template <int N, int M>
+bool expanded_joseph(const Gaussian& state, const Innovation<N, M>& seen, int rows,
+                     double* P) noexcept {
+  constexpr double kMostFall = 1.0 / 16.0;
+  const int n = kernels::size_of<N>(state.size());
+  const int m = kernels::size_of<M>(rows);
+  EntriesOf<N, M> rest;  // cross - K S
+  for (int j = 0; j < m; ++j) {
+    kernels::Strip<N> column = kernels::strip<N>(seen.cross.data() + j * n, n);
+    for (int k = 0; k < m; ++k) {
+      column -=
+          kernels::strip<N>(seen.K.data() + k * n, n) * seen.S[static_cast<std::size_t>(j * m + k)];
+    }
+    kernels::put<N>(column, rest.data() + j * n);
+  }
+  bool clear = true;
+  for (int j = 0; j < n; ++j) {
+    kernels::Strip<N> column = kernels::strip<N>(state.P.data() + j * n, n);
+    for (int k = 0; k < m; ++k) {
+      const auto at = static_cast<std::size_t>(k * n + j);
+      column -= kernels::strip<N>(seen.K.data() + k * n, n) * seen.cross[at] +
+                kernels::strip<N>(rest.data() + k * n, n) * seen.K[at];
+    }
+    clear = clear && column[j] >= kMostFall * state.P.data()[j * n + j];
+    kernels::put<N>(column, P + j * n);
+  }
+  return clear;
+}
+
 /// x + K residual
 template <int N, int M>
 void gained(const Innovation<N, M>& seen, const double* residual, int states, int rows,

@@ -51,10 +51,8 @@ void joseph(const Gaussian& state, const LinearMeasurement& measured, const Inno
     column[j] = 1.0;
     for (int k = 0; k < m; ++k) {
       const double factor = measured.H[k * n + j];
-      if (factor != 0.0) {
-        kernels::Strip<N> rest = kernels::strip<N>(column, n);
-        rest -= kernels::strip<N>(seen.K.data() + k * n, n) * factor;
-        kernels::put<N>(rest, column);
+      for (int i = 0; factor != 0.0 && i < n; ++i) {
+        column[i] -= seen.K[static_cast<std::size_t>(k * n + i)] * factor;
       }
     }
   }
@@ -85,7 +83,9 @@ FilterStatus update_sized(Gaussian& state, const LinearMeasurement& measured, do
   std::copy_n(state.x.data(), n, x.data());
   gained(seen, measured.residual, n, m, x.data());
   EntriesOf<N> P;
-  joseph(state, measured, seen, P.data());
+  if (!expanded_joseph(state, seen, m, P.data())) {
+    joseph(state, measured, seen, P.data());
+  }
   const FilterStatus status = commit<N>(state, x.data(), P.data());
   update.accepted = status == FilterStatus::kOk;
   return status;
