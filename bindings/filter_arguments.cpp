@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "quick_method.hpp"
 #include "thing_kin/core/error.hpp"
 #include "thing_kin/estimation/numeric_jacobian.hpp"
 
@@ -18,10 +19,7 @@ std::string type_name(py::handle object) { return py::str(py::type::of(object).a
 template <typename Model>
 const Model* model_in(py::handle argument) {
   static PyObject* const type = py::type::of<Model>().release().ptr();
-  if (reinterpret_cast<PyObject*>(Py_TYPE(argument.ptr())) != type) {
-    return nullptr;
-  }
-  return argument.cast<const Model*>();
+  return object_of<Model>(argument.ptr(), reinterpret_cast<PyTypeObject*>(type));
 }
 
 void check_function(py::handle function, const char* name) {
@@ -94,7 +92,7 @@ void read_into(py::handle argument, const char* name, py::ssize_t rows, py::ssiz
 
 void read_into(py::handle argument, const char* name, py::ssize_t size, StateMatrix& out) {
   out.resize(size, size);
-  if (!read_plain(argument, {size, size}, out.data())) {
+  if (!copy_plain(argument, {size, size}, out.data())) {
     const Batch batch = read(argument, name, {size, size}, false);
     std::copy_n(batch.data, size * size, out.data());
   }

@@ -51,7 +51,7 @@ class Indices : public py::object {
 void read_into(py::handle argument, const char* name, py::ssize_t size, StateVector& out);
 void read_into(py::handle argument, const char* name, py::ssize_t rows, py::ssize_t cols,
                ModelMatrix& out);
-/// A square matrix that the core will check.
+/// A square matrix that the core will check: for NaN too.
 void read_into(py::handle argument, const char* name, py::ssize_t size, StateMatrix& out);
 /// A vector of any size up to kMaxState, or a number.
 void read_measurement(py::handle argument, const char* name, StateVector& out);

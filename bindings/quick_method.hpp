@@ -18,6 +18,18 @@ namespace thing_kin::python {
 
 namespace py = pybind11;
 
+/// The object behind a Python one of exactly this class, `type`; nullptr otherwise.
+template <typename T>
+T* object_of(PyObject* self, const PyTypeObject* type) noexcept {
+  if (Py_TYPE(self) != type) {
+    return nullptr;
+  }
+  const auto* held = reinterpret_cast<const py::detail::instance*>(self);
+  return held->simple_layout && held->simple_holder_constructed
+             ? static_cast<T*>(held->simple_value_holder[0])
+             : nullptr;
+}
+
 /// How a quick call reads an argument; false leaves the call to pybind11.
 template <typename T>
 struct QuickArgument {
@@ -128,18 +140,10 @@ class QuickMethod<function> {
     return true;
   }
 
-  // The object behind a Python one of exactly this class; nullptr otherwise.
-  static Self* object_of(PyObject* self) noexcept {
-    const auto* held = reinterpret_cast<const py::detail::instance*>(self);
-    const bool plain =
-        Py_TYPE(self) == type_ && held->simple_layout && held->simple_holder_constructed;
-    return plain ? static_cast<Self*>(held->simple_value_holder[0]) : nullptr;
-  }
-
   static PyObject* call(PyObject* self, PyObject* const* arguments, Py_ssize_t count,
                         PyObject* names) noexcept {
     Values values;
-    Self* const object = object_of(self);
+    Self* const object = object_of<Self>(self, type_);
     if (object != nullptr && gather(arguments, static_cast<std::size_t>(count), names, values)) {
       try {
         PyObject* result = nullptr;

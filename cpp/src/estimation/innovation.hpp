@@ -166,15 +166,23 @@ bool expanded_joseph(const Gaussian& state, const Innovation<N, M>& seen, int ro
     kernels::put<N>(column, rest.data() + j * n);
   }
   bool clear = true;
-  for (int j = 0; j < n; ++j) {
-    kernels::Strip<N> column = kernels::strip<N>(state.P.data() + j * n, n);
+  const auto column = [&]<int Rows>(int j, int rows_left) {
+    const int first = n - rows_left;
+    kernels::Strip<Rows> sum = kernels::strip<Rows>(state.P.data() + j * n + first, rows_left);
     for (int k = 0; k < m; ++k) {
       const auto at = static_cast<std::size_t>(k * n + j);
-      column -= kernels::strip<N>(seen.K.data() + k * n, n) * seen.cross[at] +
-                kernels::strip<N>(rest.data() + k * n, n) * seen.K[at];
+      sum -= kernels::strip<Rows>(seen.K.data() + k * n + first, rows_left) * seen.cross[at] +
+             kernels::strip<Rows>(rest.data() + k * n + first, rows_left) * seen.K[at];
     }
-    clear = clear && column[j] >= kMostFall * state.P.data()[j * n + j];
-    kernels::put<N>(column, P + j * n);
+    clear = clear && sum[j - first] >= kMostFall * state.P.data()[j * n + j];
+    kernels::put<Rows>(sum, P + j * n + first);
+  };
+  for (int j = 0; j < n / 2; ++j) {
+    column.template operator()<N>(j, n);
+  }
+  for (int j = n / 2; j < n; ++j) {  // what is above them is not needed
+    std::fill_n(P + j * n, n / 2, 0.0);
+    column.template operator()<N - N / 2>(j, n - n / 2);
   }
   return clear;
 }
@@ -192,26 +200,36 @@ void gained(const Innovation<N, M>& seen, const double* residual, int states, in
   kernels::put<N>(sum, x);
 }
 
+/// Where P's positivity is not clear: kOk if it is kept.
+template <int N>
+FilterStatus keep_or_refuse(double* P, int n) noexcept {
+  kernels::mirror<N>(P, n);
+  if (!all_finite(P, static_cast<std::size_t>(n * n))) {
+    return FilterStatus::kNotFinite;
+  }
+  return kernels::keep_positive<N>(P, n, kMostInflation) ? FilterStatus::kOk
+                                                         : FilterStatus::kNotPositive;
+}
+
 /// Commits what a step has made, if it is one: P by its lower triangle.
 template <int N>
 FilterStatus commit(Gaussian& state, double* x, double* P) noexcept {
   const int n = kernels::size_of<N>(state.size());
   state.angles.wrap(x);
-  kernels::mirror<N>(P, n);
-  const auto entries = static_cast<std::size_t>(n * n);
   if (!all_finite(x, static_cast<std::size_t>(n))) {
     return FilterStatus::kNotFinite;
   }
   if (!kernels::clearly_positive<N>(P)) {  // nor is what is not finite
-    if (!all_finite(P, entries)) {
-      return FilterStatus::kNotFinite;
-    }
-    if (!kernels::keep_positive<N>(P, n, kMostInflation)) {
-      return FilterStatus::kNotPositive;
+    const FilterStatus kept = keep_or_refuse<N>(P, n);
+    if (kept != FilterStatus::kOk) {
+      return kept;
     }
   }
-  std::copy_n(x, n, state.x.data());
-  std::copy_n(P, n * n, state.P.data());
+  kernels::put<N>(kernels::strip<N>(x, n), state.x.data());
+  for (int j = 0; j < n; ++j) {
+    kernels::put<N>(kernels::strip<N>(P + j * n, n), state.P.data() + j * n);
+  }
+  kernels::mirror<N>(state.P.data(), n);
   return FilterStatus::kOk;
 }
 

@@ -78,6 +78,24 @@ inline void transpose(const double* A, double* out, int r, int c) noexcept {
   }
 }
 
+/// out (n, n) <- A^T. Two by two where n is even: what is stored one by one is slow to be read two
+/// by two.
+template <int N>
+void transpose_square(const double* A, double* out, int size) noexcept {
+  if constexpr (N == 0 || N % 2 != 0) {
+    transpose(A, out, size, size);
+  } else {
+    for (int j = 0; j < N; j += 2) {
+      for (int i = 0; i < N; i += 2) {
+        const Strip<2> a = strip<2>(A + j * N + i, 2);
+        const Strip<2> b = strip<2>(A + (j + 1) * N + i, 2);
+        put<2>(Strip<2>(a[0], b[0]), out + i * N + j);
+        put<2>(Strip<2>(a[1], b[1]), out + (i + 1) * N + j);
+      }
+    }
+  }
+}
+
 template <int N>
 void symmetrize(double* A, int size) noexcept {
   const int n = size_of<N>(size);
@@ -106,7 +124,7 @@ void add_congruence(const double* F, const double* P, double* out, int size) noe
   std::array<double, static_cast<std::size_t>(N > 0 ? N * N : kMostRows * kMostRows)> product;
   std::array<double, static_cast<std::size_t>(N > 0 ? N * N : kMostRows * kMostRows)> turned;
   times_transposed<N, L>(P, F, product.data(), n, n, n);
-  transpose(product.data(), turned.data(), n, n);
+  transpose_square<N>(product.data(), turned.data(), n);
   const auto column = [&]<int Rows>(int i, int rows) {
     double* const to = out + i * n + n - rows;
     Strip<Rows> sum = strip<Rows>(to, rows);
@@ -135,15 +153,16 @@ void congruence(const double* F, const double* P, double* out, int size) noexcep
   mirror<N>(out, n);
 }
 
-/// The pivots of the last Rest rows of W, of which A's diagonal is what they must be clear of.
+/// The pivots of the last Rest rows of `from`, of which A's diagonal is what they must be clear of;
+/// W (N, N) is for what is left of them, and may be `from`. Lower triangles.
 template <int N, int Rest>
-bool clear_pivots(const double* A, double* W) noexcept {
+bool clear_pivots(const double* A, const double* from, double* W) noexcept {
   constexpr double kFloor = kClear * N * kEpsilon;
   constexpr int kFirst = N - Rest;
-  const double* const u = W + kFirst * N + kFirst;
+  const double* const u = from + kFirst * N + kFirst;
   if constexpr (Rest == 1) {
     return u[0] > kFloor * A[kFirst * N + kFirst];
-  } else if constexpr (Rest > 1) {
+  } else {
     const double* const v = u + N;
     const double a = u[0];
     const double b = u[1];
@@ -154,30 +173,29 @@ bool clear_pivots(const double* A, double* W) noexcept {
       return false;
     }
     if constexpr (Rest > 2) {
+      constexpr int kLeft = Rest - 2;
       const double inverse = 1.0 / det;
-      const Strip<Rest - 2> U = strip<Rest - 2>(u + 2, Rest - 2);
-      const Strip<Rest - 2> V = strip<Rest - 2>(v + 2, Rest - 2);
-      const Strip<Rest - 2> p = (c * U - b * V) * inverse;
-      const Strip<Rest - 2> q = (a * V - b * U) * inverse;
-      for (int j = 0; j < Rest - 2; ++j) {
-        double* const column = W + (kFirst + 2 + j) * N + kFirst + 2;
-        put<Rest - 2>(strip<Rest - 2>(column, Rest - 2) - U * p[j] - V * q[j], column);
+      const Strip<kLeft> U = strip<kLeft>(u + 2, kLeft);
+      const Strip<kLeft> V = strip<kLeft>(v + 2, kLeft);
+      const Strip<kLeft> p = (c * U - b * V) * inverse;
+      const Strip<kLeft> q = (a * V - b * U) * inverse;
+      for (int j = 0; j < kLeft; ++j) {
+        const int at = (kFirst + 2 + j) * N + kFirst + 2;
+        put<kLeft>(strip<kLeft>(from + at, kLeft) - U * p[j] - V * q[j], W + at);
       }
-      return clear_pivots<N, Rest - 2>(A, W);
+      return clear_pivots<N, kLeft>(A, W, W);
     }
     return true;
   }
-  return true;
 }
 
 /// Nearly always all of is_positive(): the pivots of L D L^T two at a time, with one division for
-/// both. False where that does not tell, and where no size is known.
+/// both. False where that does not tell, and where no size is known. Reads the lower triangle.
 template <int N>
 bool clearly_positive(const double* A) noexcept {
   if constexpr (N > 0) {
     std::array<double, static_cast<std::size_t>(N * N)> W;
-    std::copy_n(A, N * N, W.data());
-    return clear_pivots<N, N>(A, W.data());
+    return clear_pivots<N, N>(A, A, W.data());
   }
   return false;
 }
