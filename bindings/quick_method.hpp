@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -47,6 +48,17 @@ struct QuickArgument<double> {
   bool load(PyObject* argument) {
     value = PyFloat_CheckExact(argument) ? PyFloat_AS_DOUBLE(argument) : 0.0;
     return PyFloat_CheckExact(argument);
+  }
+};
+
+template <>
+struct QuickArgument<std::optional<double>> {
+  std::optional<double> value;
+  bool load(PyObject* argument) {
+    if (PyFloat_CheckExact(argument)) {
+      value = PyFloat_AS_DOUBLE(argument);
+    }
+    return value || argument == Py_None;
   }
 };
 
