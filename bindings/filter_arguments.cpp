@@ -152,16 +152,19 @@ Rows::Rows(py::handle argument, const char* name, const std::vector<py::ssize_t>
   }
 }
 
-Batch read_record(py::handle record) {
-  std::vector<py::ssize_t> shape;
+std::vector<py::ssize_t> read_shape(py::handle argument, const char* name) {
   try {
-    shape = py::module_::import("numpy").attr("shape")(record).cast<std::vector<py::ssize_t>>();
+    return py::module_::import("numpy").attr("shape")(argument).cast<std::vector<py::ssize_t>>();
   } catch (py::error_already_set& error) {
     if (!error.matches(PyExc_Exception) || error.matches(PyExc_MemoryError)) {
       throw;
     }
-    throw InvalidArgument("record", type_name(record), "an array of real numbers");
+    throw InvalidArgument(name, type_name(argument), "an array of real numbers");
   }
+}
+
+Batch read_record(py::handle record) {
+  const std::vector<py::ssize_t> shape = read_shape(record, "record");
   const bool table = shape.size() == 2 && shape[1] >= 1 && shape[1] <= kMaxState;
   if (!(table || shape.size() == 1) || shape[0] < 1) {
     throw InvalidArgument(

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "array.hpp"
 #include "thing_kin/estimation/unscented_kalman.hpp"
@@ -67,6 +68,9 @@ struct Rows {
        py::ssize_t count);
   const double* at(py::ssize_t i) const { return batch.item(batch.single ? 0 : i); }
 };
+
+/// As numpy.shape(). Throws InvalidArgument for what is no array.
+std::vector<py::ssize_t> read_shape(py::handle argument, const char* name);
 
 /// (N, m) with rows of NaN for what is missing, or (N,) for m = 1.
 Batch read_record(py::handle record);

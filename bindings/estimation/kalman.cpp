@@ -13,12 +13,12 @@ namespace {
 
 // How many inputs B has.
 py::ssize_t inputs_of(py::handle u, bool rows) {
-  const auto shape = py::module_::import("numpy").attr("shape")(u).cast<py::tuple>();
+  const std::vector<py::ssize_t> shape = read_shape(u, "u");
   const std::size_t axes = shape.size();
   if (axes < 1 || axes > (rows ? 2U : 1U)) {
     throw InvalidArgument("u", std::to_string(axes) + " axes", rows ? "(N, k) or (k,)" : "(k,)");
   }
-  return shape[axes - 1].cast<py::ssize_t>();
+  return shape.back();
 }
 
 void check_input(const OptionalArray& B, const OptionalArray& u) {
