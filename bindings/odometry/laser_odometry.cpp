@@ -77,7 +77,17 @@ Array rows(std::size_t count, py::ssize_t size, const Get& get) {
 }
 
 void bind_step(py::module_& m) {
-  py::class_<LaserStep>(m, "LaserStep", "What one scan said: the motion since the one before.")
+  py::class_<LaserStep>(m, "LaserStep", R"(What one scan said: the motion since the one before.
+
+Examples
+--------
+>>> import numpy as np
+>>> from thing_kin import odometry
+>>> lidar = odometry.LaserOdometry(odometry.Scanner(-np.pi / 2, np.pi / 2, 181))
+>>> step = lidar.add(1.0 / np.cos(0.9 * lidar.scanner.angles / 2), t=0.0)
+>>> step.status, step.keyframe
+('first', True)
+)")
       .def_property_readonly(
           "status", [](const LaserStep& s) { return status_name(s.status); },
           "'first', 'tracking', 'still' (found, and no motion is seen: the pose "
@@ -210,6 +220,16 @@ Raises
 ValueError
     If an array has another shape, `t` is not after the scan before, or a covariance is none. The
     state is as it was.
+
+Examples
+--------
+>>> import numpy as np
+>>> from thing_kin import odometry
+>>> lidar = odometry.LaserOdometry(odometry.Scanner(-np.pi / 2, np.pi / 2, 181))
+>>> first = lidar.add(1.0 / np.cos(0.9 * lidar.scanner.angles / 2), t=0.0)
+>>> blind = lidar.add(np.full(181, np.inf), t=0.1, motion=(0.05, 0.0, 0.0))
+>>> blind.status, blind.pose
+('lost', array([0.05, 0.  , 0.  ]))
 )")
       .def_property_readonly(
           "poses",

@@ -59,6 +59,16 @@ void bind_scan_matching(py::module_& m) {
 
 The pose to go by where `status` is "converged" (or, nearly, "iteration_limit"); with "poor_fit"
 and "too_few_points" it is the guess, and the covariance the guess's.
+
+Examples
+--------
+>>> import numpy as np
+>>> from thing_kin import odometry
+>>> scanner = odometry.Scanner(-np.pi / 2, np.pi / 2, 181)
+>>> nothing = np.full(181, np.inf)
+>>> match = odometry.match(scanner, nothing, nothing, guess=(0.1, 0.0, 0.0))
+>>> match.status, match.degenerate, match.pose
+('too_few_points', True, array([0.1, 0. , 0. ]))
 )")
       .def_property_readonly(
           "pose", [](const ScanMatch& s) { return to_array(s.pose); },
