@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import thing_kin as tk
-from thing_kin import estimation, lie, robots
+from thing_kin import estimation, lie, odometry, robots
 
 ROOT = Path(__file__).parents[1]
 CPP = ROOT / "cpp"
@@ -154,7 +154,7 @@ def test_bindings_mirror_the_core() -> None:
 def test_no_module_is_named_like_a_public_function() -> None:
     functions = {
         name
-        for module in (tk, lie, robots, estimation)
+        for module in (tk, lie, robots, estimation, odometry)
         for name in module.__all__
         if callable(getattr(module, name)) and not isinstance(getattr(module, name), type)
     }
@@ -173,6 +173,8 @@ def test_python_reaches_the_core_through_few_modules(path: Path) -> None:
         assert "_kdl" not in text
     if path.parent.name != "estimation":
         assert "_estimation" not in text
+    if path.parent.name != "odometry":
+        assert "_odometry" not in text
     assert "_ceres" not in text
     assert "_urdf" not in text.replace("to_urdf", "").replace("from_urdf", "")
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import thing_kin as tk
-from thing_kin import estimation
+from thing_kin import estimation, odometry
 
 ROOT = Path(__file__).parent.parent
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -54,7 +54,7 @@ def test_the_table_leads_to(row: list[str]) -> None:
         assert (ROOT / "cpp/include/thing_kin" / header).is_file(), header
     for name in python:
         prefix, _, path = name.partition(".")  # of `tk.ik`, `est.KalmanFilter`, `.fk`
-        owner = {"": tk.Chain, "est": estimation}.get(prefix, tk)
+        owner = {"": tk.Chain, "est": estimation, "odometry": odometry}.get(prefix, tk)
         if not path.startswith("kdl."):  # an extension of its own, which a build may lack
             assert callable(reduce(getattr, path.split("."), owner)), name
     for test in tests:

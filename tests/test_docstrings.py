@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import pytest
 
 import thing_kin as tk
-from thing_kin import estimation, interop, kdl, lie, robots, terms
+from thing_kin import estimation, interop, kdl, lie, odometry, robots, terms
 
-MODULES = (tk, lie, robots, terms, kdl, interop, estimation, estimation.models)
+MODULES = (tk, lie, robots, terms, kdl, interop, estimation, estimation.models, odometry)
 
 
 def public_things() -> Iterator[tuple[str, object]]:
@@ -34,7 +34,7 @@ def class_and_members(path: str, thing: type) -> Iterator[tuple[str, object]]:
 THINGS = dict(public_things())
 PROPERTIES = {path for path, thing in THINGS.items() if isinstance(thing, property)}
 MODULES_ALONE = {
-    module.__name__ for module in (lie, robots, terms, kdl, estimation, estimation.models)
+    module.__name__ for module in (lie, robots, terms, kdl, estimation, estimation.models, odometry)
 }
 WITH_EXAMPLES = sorted(set(THINGS) - PROPERTIES - MODULES_ALONE)
 

@@ -40,6 +40,8 @@ def test_it_loads_numpy_only() -> None:
         "thing_kin._ceres",
         "thing_kin._estimation",
         "thing_kin.estimation",
+        "thing_kin._odometry",
+        "thing_kin.odometry",
     ):
         assert heavy not in loaded
 
@@ -52,6 +54,13 @@ def test_estimation_is_loaded_on_demand() -> None:
     loaded = modules_after("from thing_kin import estimation as est")
     assert "thing_kin._estimation" in loaded
     assert "yaml" not in loaded
+    assert foreign(loaded) == foreign(modules_after("import thing_kin, numpy, numpy.typing"))
+
+
+def test_odometry_is_loaded_on_demand() -> None:
+    loaded = modules_after("from thing_kin import odometry")
+    assert "thing_kin._odometry" in loaded
+    assert "thing_kin._estimation" not in loaded
     assert foreign(loaded) == foreign(modules_after("import thing_kin, numpy, numpy.typing"))
 
 

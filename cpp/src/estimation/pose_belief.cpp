@@ -50,9 +50,10 @@ Matrix3d unscented_excess(const Vector2d& even, double n) {
   return excess;
 }
 
-void keep_pose_positive(Matrix3d& P) noexcept {
-  P = (0.5 * (P + P.transpose())).eval();
-  keep_positive(P, 1.0);
+// The variances of A P A^T if nothing cancelled.
+template <typename Rows, typename Square>
+auto sizes_of(const Rows& A, const Square& P) {
+  return (A.cwiseAbs() * P.cwiseAbs() * A.cwiseAbs().transpose()).diagonal().eval();
 }
 
 // Rows that do not count: no expectation, no innovation, a variance of one by itself.
@@ -95,8 +96,19 @@ PoseVerdict correct(Joint& P, Rows H, Vector3d r, const Matrix3d& R, const PoseM
   I_KH.diagonal().array() += 1.0;
   change.noalias() = Kt.transpose() * r;
   const Joint half = I_KH * P;
+  const Joint before = P;
   P.noalias() = half * I_KH.transpose();
   P += Kt.transpose() * (R_counted * Kt);
+  P = (0.5 * (P + P.transpose())).eval();
+  for (Eigen::Index k = 0; k < P.rows(); k += 3) {
+    Matrix3d block = P.template block<3, 3>(k, k);
+    if (!is_positive(block)) {
+      const Vector3d sizes =
+          (sizes_of(I_KH, before) + sizes_of(Kt.transpose(), R_counted)).template segment<3>(k);
+      keep_positive(block, sizes);
+      P.template block<3, 3>(k, k) = block;
+    }
+  }
   return verdict;
 }
 
@@ -123,10 +135,15 @@ void PoseBelief::predict(const PlanarStep& step, PoseFilter filter) noexcept {
     excess = unscented_excess(even, 3.0);
   }
   const Matrix3d& G = by.by_motion;
-  P_ = (F * P_ * F.transpose() + G * step.covariance * G.transpose() + excess +
-        accumulated(step.noise, moved, end.head<2>() - middle.head<2>()))
-           .eval();
-  keep_pose_positive(P_);
+  const Matrix3d sum = F * P_ * F.transpose() + G * step.covariance * G.transpose() + excess +
+                       accumulated(step.noise, moved, end.head<2>() - middle.head<2>());
+  const Matrix3d before = P_;
+  P_ = 0.5 * (sum + sum.transpose());
+  if (!is_positive(P_)) {
+    const Vector3d sizes = sizes_of(F, before) + sizes_of(G, step.covariance) + excess.diagonal() +
+                           sizes_of(carried(moved), step.noise);
+    keep_positive(P_, sizes);
+  }
   pose_ = end;
   pose_.head<2>() += shift;
   for (Eigen::Index k = 0; k < cross_.cols(); k += 3) {
@@ -143,7 +160,6 @@ PoseVerdict PoseBelief::update(const PoseMeasurement& measured) noexcept {
     if (verdict.accepted) {
       pose_ += change;
       pose_.z() = wrap_angle(pose_.z());
-      keep_pose_positive(P_);
     }
     return verdict;
   }
@@ -208,9 +224,8 @@ PoseVerdict PoseBelief::update_joint(const Rows& H, const Vector3d& r, const Mat
     return verdict;
   }
   P_ = P.topLeftCorner<3, 3>();
-  keep_pose_positive(P_);
-  cross_ = 0.5 * (P.topRightCorner(3, n) + P.bottomLeftCorner(n, 3).transpose());
-  P_clones_ = 0.5 * (P.bottomRightCorner(n, n) + P.bottomRightCorner(n, n).transpose());
+  cross_ = P.topRightCorner(3, n);
+  P_clones_ = P.bottomRightCorner(n, n);
   const auto moved = [&](Pose2& pose, Eigen::Index row) {
     pose += change.segment<3>(row);
     pose.z() = wrap_angle(pose.z());

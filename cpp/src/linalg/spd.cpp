@@ -91,6 +91,27 @@ bool keep_positive(MatrixSpan A, double most) noexcept {
 }
 
 // NOLINTNEXTLINE(performance-unnecessary-value-param)
+bool keep_positive(MatrixSpan A, const VectorView& sizes) noexcept {
+  const auto n = static_cast<int>(A.rows());
+  kernels::Scratch copy;
+  copy_columns(A, copy.data());
+  double fraction = 16.0 * n * kEpsilon;
+  // Entries are at most the geometric mean of two sizes: n of them outweigh all others in a row.
+  while (!kernels::is_positive<0>(copy.data(), n)) {
+    if (fraction > 4.0 * n) {
+      return false;
+    }
+    copy_columns(A, copy.data());
+    for (Eigen::Index k = 0; k < A.rows(); ++k) {
+      copy[static_cast<std::size_t>(k * A.rows() + k)] += fraction * sizes[k];
+    }
+    fraction *= 4.0;
+  }
+  write_columns(copy.data(), A);
+  return true;
+}
+
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
 bool cholesky(const MatrixView& A, MatrixSpan L) noexcept {
   kernels::Scratch copy;
   copy_columns(A, copy.data());

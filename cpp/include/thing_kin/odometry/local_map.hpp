@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "thing_kin/odometry/scan.hpp"
+
+namespace thing_kin {
+
+/// A piece of what scans have seen: the mean of the points that fell there.
+struct Surfel {
+  Eigen::Vector2d p;
+  Eigen::Vector2d normal;  ///< towards where it was seen from; zero: a place without a line
+  double weight = 1.0;     ///< how many points made it
+  double seen = 0.0;       ///< when it was seen last, on the clock of insert()
+  /// The line of its surface here, a mean over the neighborhood; of a place, p and zero.
+  Eigen::Vector2d line_p;
+  Eigen::Vector2d line_normal;
+
+  bool is_surface() const noexcept { return !normal.isZero(0.0); }
+};
+
+/// What the scanner has seen lately around the robot: points with their surface's normal, merged
+/// where they are closer than `kMergeDistance`, found again through a grid. Both sides of a thin
+/// wall are kept apart by their normals.
+class LocalMap {
+ public:
+  /// m. A point goes to the surfel of its kind within this distance, if there is one.
+  static constexpr double kMergeDistance = 0.05;
+
+  /// Adds the points of a scan that was made at this pose; sparse ones are not kept.
+  void insert(const PlanarScan& scan, const Pose2& pose, double clock);
+
+  /// Forgets what lies beyond `radius` from here or was not seen since `oldest`.
+  void forget(const Eigen::Vector2d& center, double radius, double oldest);
+
+  void clear() noexcept;
+
+  /// The nearest surfel within `distance` of p; for a point with a normal it is a surface that
+  /// faces the same way. nullptr if there is none.
+  const Surfel* nearest(const Eigen::Vector2d& p, const Eigen::Vector2d& normal,
+                        double distance) const noexcept;
+
+  const std::vector<Surfel>& surfels() const noexcept { return surfels_; }
+
+ private:
+  struct Cell {
+    std::int32_t x;
+    std::int32_t y;
+    std::int32_t first;  ///< of the cell's surfels; -1: an empty entry
+  };
+  std::size_t entry_of(std::int32_t x, std::int32_t y) const noexcept;
+  std::int32_t first_of(std::int32_t x, std::int32_t y) const noexcept;
+  void enlist(std::int32_t surfel);
+  void rehash();
+  template <typename Visit>
+  void visit_near(const Eigen::Vector2d& p, double distance, Visit&& visit) const noexcept;
+  std::int32_t mergeable(const Eigen::Vector2d& p, const Eigen::Vector2d& normal) const noexcept;
+  void draw_lines();
+  void draw_line(Surfel& surfel) const noexcept;
+
+  std::vector<Surfel> surfels_;
+  std::vector<std::int32_t> next_;  ///< of the same cell; -1: none
+  std::vector<Cell> cells_;         ///< an open hash table, its size a power of two
+  std::size_t used_ = 0;
+  std::vector<std::int32_t> changed_;
+  std::vector<char> stale_;  ///< whose line is to be drawn anew
+};
+
+}  // namespace thing_kin

@@ -1,0 +1,215 @@
+#include "thing_kin/odometry/correlative_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <queue>
+#include <tuple>
+
+#include <Eigen/Geometry>
+
+namespace thing_kin {
+
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kResolution = 0.05;  // m
+constexpr double kTurn = std::numbers::pi / 180.0;
+constexpr int kLevels = 5;                 // the coarsest cell is 2^4 of the finest
+constexpr double kLikelihoodWidth = 0.08;  // m, one standard deviation
+constexpr int kKernel = 4;                 // cells to each side
+constexpr double kFarthestPoint = 15.0;    // m; farther ones move too much with a degree
+constexpr std::size_t kMostSearchPoints = 120;
+constexpr double kLeastScore = 0.2;
+constexpr double kLeastShareOfBest = 0.6;
+// Candidates are apart by one of these, m and rad.
+constexpr double kApart = 0.3;
+constexpr double kApartTurn = 0.15;
+
+// Likelihoods as bytes; level l holds in each cell the largest of 2^l x 2^l cells from it on.
+class LikelihoodGrid {
+ public:
+  LikelihoodGrid(const LocalMap& map, const Vector2d& center, double radius)
+      : origin_(center - Vector2d::Constant(radius)),
+        side_(static_cast<int>(2.0 * radius / kResolution) + 1) {
+    levels_[0].assign(cells(), 0);
+    for (const Surfel& surfel : map.surfels()) {
+      spread((surfel.p - origin_) / kResolution);
+    }
+    for (std::size_t l = 1; l < kLevels; ++l) {
+      pool(levels_[l - 1], 1 << (l - 1), levels_[l]);
+    }
+  }
+
+  Eigen::Vector2i cell(const Vector2d& p) const {
+    return ((p - origin_) / kResolution).array().floor().cast<int>();
+  }
+
+  // The mean over the points moved by (x, y) cells; at a coarse level a bound from above for all
+  // moves of the cell that begins there.
+  double score(const std::vector<Eigen::Vector2i>& points, int x, int y, int level) const {
+    const int reach = (1 << level) - 1;
+    const std::vector<std::uint8_t>& values = levels_[static_cast<std::size_t>(level)];
+    long sum = 0;
+    for (const Eigen::Vector2i& point : points) {
+      const int u = point.x() + x;
+      const int v = point.y() + y;
+      if (u >= -reach && v >= -reach && u < side_ && v < side_) {
+        sum += values[index(std::max(u, 0), std::max(v, 0))];
+      }
+    }
+    return static_cast<double>(sum) / (255.0 * static_cast<double>(points.size()));
+  }
+
+ private:
+  std::size_t cells() const {
+    return static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_);
+  }
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(side_) +
+           static_cast<std::size_t>(x);
+  }
+
+  void spread(const Vector2d& at) {
+    const int x = static_cast<int>(std::floor(at.x()));
+    const int y = static_cast<int>(std::floor(at.y()));
+    if (x < kKernel || y < kKernel || x >= side_ - kKernel || y >= side_ - kKernel) {
+      return;
+    }
+    constexpr double kWidth = kLikelihoodWidth / kResolution;
+    std::array<double, 2 * kKernel + 1> across{};
+    std::array<double, 2 * kKernel + 1> along{};
+    for (int i = -kKernel; i <= kKernel; ++i) {
+      const double dx = (x + i + 0.5 - at.x()) / kWidth;
+      const double dy = (y + i + 0.5 - at.y()) / kWidth;
+      across[static_cast<std::size_t>(i + kKernel)] = std::exp(-0.5 * dx * dx);
+      along[static_cast<std::size_t>(i + kKernel)] = std::exp(-0.5 * dy * dy);
+    }
+    for (std::size_t j = 0; j < along.size(); ++j) {
+      for (std::size_t i = 0; i < across.size(); ++i) {
+        std::uint8_t& cell =
+            levels_[0][index(x + static_cast<int>(i) - kKernel, y + static_cast<int>(j) - kKernel)];
+        cell = std::max(cell, static_cast<std::uint8_t>(255.0 * across[i] * along[j]));
+      }
+    }
+  }
+
+  void pool(const std::vector<std::uint8_t>& fine, int step, std::vector<std::uint8_t>& out) {
+    const auto side = static_cast<std::size_t>(side_);
+    const auto ahead = static_cast<std::size_t>(step);
+    out = fine;
+    for (std::size_t y = 0; y < side; ++y) {
+      for (std::size_t x = 0; x + ahead < side; ++x) {
+        out[y * side + x] = std::max(fine[y * side + x], fine[y * side + x + ahead]);
+      }
+    }
+    // Rows upwards: each is read before it is written.
+    for (std::size_t y = 0; y + ahead < side; ++y) {
+      for (std::size_t x = 0; x < side; ++x) {
+        out[y * side + x] = std::max(out[y * side + x], out[(y + ahead) * side + x]);
+      }
+    }
+  }
+
+  Vector2d origin_;
+  int side_;
+  std::array<std::vector<std::uint8_t>, kLevels> levels_;
+};
+
+struct Node {
+  double score;
+  int turn;
+  int x;
+  int y;
+  int level;
+
+  // The whole order, so that equal scores leave no choice.
+  bool operator<(const Node& other) const {
+    return std::tie(score, other.level, other.turn, other.x, other.y) <
+           std::tie(other.score, level, turn, x, y);
+  }
+};
+
+std::vector<Vector2d> thinned(const PlanarScan& scan) {
+  std::vector<Vector2d> near;
+  for (const ScanPoint& point : scan) {
+    if (point.p.squaredNorm() < kFarthestPoint * kFarthestPoint) {
+      near.push_back(point.p);
+    }
+  }
+  const std::size_t stride = (near.size() + kMostSearchPoints - 1) / kMostSearchPoints;
+  std::vector<Vector2d> some;
+  for (std::size_t i = 0; i < near.size(); i += std::max<std::size_t>(stride, 1)) {
+    some.push_back(near[i]);
+  }
+  return some;
+}
+
+bool apart(const SearchCandidate& a, const Pose2& b) {
+  const Pose2 d = pose_difference(a.pose, b);
+  return std::abs(d.z()) >= kApartTurn || d.head<2>().norm() >= kApart;
+}
+
+}  // namespace
+
+std::vector<SearchCandidate> correlative_search(const LocalMap& map, const PlanarScan& scan,
+                                                const SearchWindow& window, int most) {
+  const std::vector<Vector2d> points = thinned(scan);
+  std::vector<SearchCandidate> found;
+  if (points.empty() || map.surfels().empty()) {
+    return found;
+  }
+  double farthest = 0.0;
+  for (const Vector2d& p : points) {
+    farthest = std::max(farthest, p.norm());
+  }
+  const Pose2& center = window.center;
+  const LikelihoodGrid grid(map, center.head<2>(), farthest + window.translation + 1.0);
+  const int turns = static_cast<int>(window.rotation / kTurn);
+  const int reach = static_cast<int>(window.translation / kResolution);
+  std::vector<std::vector<Eigen::Vector2i>> turned(static_cast<std::size_t>(2 * turns + 1));
+  std::priority_queue<Node> queue;
+  const auto push = [&](int turn, int x, int y, int level) {
+    const double score = grid.score(turned[static_cast<std::size_t>(turn)], x, y, level);
+    if (score > kLeastScore && (found.empty() || score > kLeastShareOfBest * found[0].score)) {
+      queue.push({.score = score, .turn = turn, .x = x, .y = y, .level = level});
+    }
+  };
+  constexpr int kCoarsest = 1 << (kLevels - 1);
+  for (int turn = 0; turn <= 2 * turns; ++turn) {
+    const Eigen::Rotation2Dd R(center.z() + (turn - turns) * kTurn);
+    for (const Vector2d& p : points) {
+      turned[static_cast<std::size_t>(turn)].push_back(grid.cell(R * p + center.head<2>()));
+    }
+    for (int x = -reach; x <= reach; x += kCoarsest) {
+      for (int y = -reach; y <= reach; y += kCoarsest) {
+        push(turn, x, y, kLevels - 1);
+      }
+    }
+  }
+  while (!queue.empty() && std::ssize(found) < most) {
+    const Node node = queue.top();
+    queue.pop();
+    if (node.level == 0) {
+      const Pose2 pose(center.x() + node.x * kResolution, center.y() + node.y * kResolution,
+                       wrap_angle(center.z() + (node.turn - turns) * kTurn));
+      if (std::ranges::all_of(found, [&](const auto& other) { return apart(other, pose); })) {
+        found.push_back({.pose = pose, .score = node.score});
+      }
+      continue;
+    }
+    const int half = 1 << (node.level - 1);
+    for (const int x : {node.x, node.x + half}) {
+      for (const int y : {node.y, node.y + half}) {
+        if (x <= reach && y <= reach) {
+          push(node.turn, x, y, node.level - 1);
+        }
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace thing_kin

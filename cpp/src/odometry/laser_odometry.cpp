@@ -1,0 +1,200 @@
+#include "thing_kin/odometry/laser_odometry.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include "thing_kin/core/error.hpp"
+
+namespace thing_kin {
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// What a robot's velocity may change by while nothing measures it: deviations grow with the time
+// between scans, to so much at most. m, m/s; rad, rad/s.
+constexpr double kGuessOffset = 0.02;
+constexpr double kGuessRate = 2.0;
+constexpr double kGuessMost = 0.2;
+constexpr double kTurnOffset = 0.1;
+constexpr double kTurnRate = 30.0;
+// A pose that was held moves if it is off by more than this quantile (chi square, 3 dof, 95 %).
+constexpr double kStillBound = 7.815;
+// Less of a scan's points on the map than this: it shows what the map doesn't know.
+constexpr double kWellKnown = 0.7;
+// Of a scan that moved, in s and in m or rad: once more if the guess of its own motion was worse.
+constexpr double kSkew = 1e-3;
+
+void check_option(double value, const char* name, bool zero_allowed) {
+  if (!(std::isfinite(value) && (value > 0.0 || (zero_allowed && value == 0.0)))) {
+    throw InvalidArgument(name, text(value), zero_allowed ? "a number >= 0" : "a number > 0");
+  }
+}
+
+// Covariance of T_a_b, in the axes of a, for poses with independent errors (world axes).
+Matrix3d motion_covariance(const Pose2& a, const Matrix3d& P_a, const Pose2& b,
+                           const Matrix3d& P_b) {
+  Matrix3d to_a = Matrix3d::Identity();
+  to_a.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-a.z()).toRotationMatrix();
+  Matrix3d by_a = -to_a;
+  const Pose2 motion = between(a, b);
+  by_a(0, 2) = motion.y();
+  by_a(1, 2) = -motion.x();
+  const Matrix3d sum = by_a * P_a * by_a.transpose() + to_a * P_b * to_a.transpose();
+  return 0.5 * (sum + sum.transpose());
+}
+
+// A covariance in the axes of `from`, in world axes.
+Matrix3d in_world(const Pose2& from, const Matrix3d& P) {
+  Matrix3d R = Matrix3d::Identity();
+  R.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(from.z()).toRotationMatrix();
+  return R * P * R.transpose();
+}
+
+}  // namespace
+
+LaserOdometry::LaserOdometry(const Scanner& scanner, const LaserOdometryOptions& options)
+    : scanner_(scanner), options_(options) {
+  check_scanner(scanner);
+  check_option(options.keyframe_distance, "keyframe_distance", true);
+  check_option(options.keyframe_angle, "keyframe_angle", true);
+  check_option(options.memory, "memory", false);
+  check_option(options.radius, "radius", false);
+  check_option(options.still_distance, "still_distance", true);
+  check_option(options.still_angle, "still_angle", true);
+  check_match_options(options.match);
+  if (options.lost_limit < 1) {
+    throw InvalidArgument("lost_limit", std::to_string(options.lost_limit), "a number >= 1");
+  }
+}
+
+PlanarEstimate LaserOdometry::guess_motion(double dt,
+                                           const std::optional<PlanarEstimate>& motion) const {
+  if (motion) {
+    return *motion;
+  }
+  const double sd = std::min(kGuessOffset + kGuessRate * dt, kGuessMost);
+  const double turn = std::min(kTurnOffset + kTurnRate * dt, std::numbers::pi);
+  // Over a gap a velocity says little: it is held for half a second at most.
+  return {.pose = se2_exp(twist_ * std::min(dt, 0.5)),
+          .covariance = Vector3d(sd * sd, sd * sd, turn * turn).asDiagonal()};
+}
+
+ScanMatch LaserOdometry::match(const PlanarEstimate& guess, bool guided) const {
+  const std::array<Pose2, 1> standing{pose_};
+  return match_scan(map_, scan_, guess,
+                    guided ? std::span<const Pose2>{} : std::span<const Pose2>{standing},
+                    scanner_.noise, options_.match);
+}
+
+bool LaserOdometry::seems_still(const ScanMatch& match) const {
+  const Vector3d off = pose_difference(match.pose, pose_);
+  return match.degenerate == 0 && off.head<2>().norm() <= options_.still_distance &&
+         std::abs(off.z()) <= options_.still_angle &&
+         off.dot((match.covariance + noise_).llt().solve(off)) <= kStillBound;
+}
+
+// The scan goes into the map if the robot has moved, or sees what the map doesn't know.
+void LaserOdometry::keep(LaserStep& step) {
+  const Pose2 moved = between(keyframe_, pose_);
+  step.keyframe = moved.head<2>().norm() > options_.keyframe_distance ||
+                  std::abs(moved.z()) > options_.keyframe_angle ||
+                  (step.status == LaserStatus::kTracking && step.match.inliers < kWellKnown);
+  if (step.keyframe) {
+    keyframe_ = pose_;
+    map_.insert(scan_, pose_, way_);
+    map_.forget(pose_.head<2>(), options_.radius, way_ - options_.memory);
+  }
+}
+
+LaserStep LaserOdometry::add(std::span<const double> ranges, double t,
+                             const std::optional<PlanarEstimate>& motion) {
+  if (!std::isfinite(t) || (t_ && !(t > *t_))) {
+    throw InvalidArgument("t", text(t), t_ ? "a time after " + text(*t_) : "a finite time");
+  }
+  LaserStep step;
+  step.t = t;
+  step.t_from = t_.value_or(t);
+  const double dt = t - step.t_from;
+  const PlanarEstimate moved = t_ ? guess_motion(dt, motion) : PlanarEstimate{};
+  Twist2 twist = dt > 0.0 ? Twist2(se2_log(moved.pose) / dt) : Twist2::Zero();
+  read_scan(scanner_, ranges, twist, scan_);
+
+  if (map_.surfels().empty()) {
+    // Nothing was seen so far, or all was forgotten.
+    pose_ = compose(pose_, moved.pose);
+    map_.insert(scan_, pose_, way_);
+    step.status = map_.surfels().empty() ? LaserStatus::kLost : LaserStatus::kFirst;
+    step.keyframe = step.status == LaserStatus::kFirst;
+    keyframe_ = pose_;
+    step.motion = moved.pose;
+    step.covariance = moved.covariance;
+    step.scan_covariance = Matrix3d::Identity() * kUntoldVariance;
+    noise_.setZero();
+    scan_noise_.setZero();
+  } else {
+    const Matrix3d spread = in_world(pose_, moved.covariance);
+    Matrix3d by_pose = Matrix3d::Identity();
+    const Pose2 guessed = compose(pose_, moved.pose);
+    by_pose(0, 2) = -(guessed - pose_).y();
+    by_pose(1, 2) = (guessed - pose_).x();
+    const PlanarEstimate guess{.pose = guessed,
+                               .covariance = by_pose * noise_ * by_pose.transpose() + spread};
+    ScanMatch match = this->match(guess, motion.has_value());
+    const Twist2 seen = se2_log(between(pose_, match.pose)) / dt;
+    if (scanner_.scan_time > 0.0 &&
+        ((seen - twist) * scanner_.scan_time).cwiseAbs().maxCoeff() > kSkew &&
+        match.status == MatchStatus::kConverged) {
+      read_scan(scanner_, ranges, seen, scan_);
+      match = this->match({.pose = match.pose, .covariance = guess.covariance}, true);
+    }
+    step.match = match;
+    const bool found =
+        match.status == MatchStatus::kConverged || match.status == MatchStatus::kIterationLimit;
+    step.status = !found               ? LaserStatus::kLost
+                  : seems_still(match) ? LaserStatus::kStill
+                                       : LaserStatus::kTracking;
+    const Pose2 before = pose_;
+    const Pose2 now = step.status == LaserStatus::kStill ? pose_ : match.pose;
+    step.motion = between(before, now);
+    // Along what no scan tells the motion is as uncertain as its guess; the pose, in the map, as
+    // all guesses since something told.
+    const Matrix3d guessed_only = Matrix3d::Identity() - match.told;
+    step.covariance = motion_covariance(before, match.told * noise_ * match.told.transpose(), now,
+                                        match.told * match.covariance * match.told.transpose() +
+                                            guessed_only * spread * guessed_only.transpose());
+    step.scan_covariance = motion_covariance(before, scan_noise_, now, match.scan_covariance);
+    pose_ = now;
+    noise_ = match.covariance;
+    scan_noise_ = match.scan_covariance;
+    twist_ = found ? Twist2(se2_log(step.motion) / dt) : twist_;
+  }
+  t_ = t;
+  way_ += step.motion.head<2>().norm();
+  step.pose = pose_;
+  if (step.status == LaserStatus::kLost) {
+    if (++lost_ >= options_.lost_limit && !scan_.empty()) {
+      map_.clear();
+      keyframe_ = pose_;
+      map_.insert(scan_, pose_, way_);
+      noise_.setZero();
+      scan_noise_.setZero();
+      step.keyframe = true;
+      lost_ = 0;
+    }
+    return step;
+  }
+  lost_ = 0;
+  if (step.status != LaserStatus::kFirst) {
+    keep(step);
+  }
+  return step;
+}
+
+}  // namespace thing_kin

@@ -1,0 +1,215 @@
+#include "thing_kin/odometry/local_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+namespace thing_kin {
+
+namespace {
+
+using Eigen::Vector2d;
+
+// Side of a cell, m.
+constexpr double kCell = 0.2;
+// A surfel is the mean of its points until there are so many; then the mean goes with the latest.
+constexpr double kMostPoints = 20.0;
+// Cosines: normals of one surfel; of a point and the surface that it may lie on; of the surfels
+// that share a line.
+constexpr double kSameSurface = 0.7;
+constexpr double kSameSide = 0.5;
+constexpr double kSameLine = 0.8;
+// A line is a mean over this radius, in m, where weights fall to zero.
+constexpr double kLineRadius = 0.25;
+// In that mean one surfel counts as so many points at most.
+constexpr double kMostShare = 5.0;
+
+std::int32_t cell_of(double v) noexcept { return static_cast<std::int32_t>(std::floor(v / kCell)); }
+
+}  // namespace
+
+std::size_t LocalMap::entry_of(std::int32_t x, std::int32_t y) const noexcept {
+  const std::uint64_t key = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32U) |
+                            static_cast<std::uint32_t>(y);
+  std::uint64_t hash = key * 0x9E3779B97F4A7C15ULL;
+  hash ^= hash >> 32U;
+  std::size_t entry = hash & (cells_.size() - 1);
+  while (cells_[entry].first >= 0 && (cells_[entry].x != x || cells_[entry].y != y)) {
+    entry = (entry + 1) & (cells_.size() - 1);
+  }
+  return entry;
+}
+
+std::int32_t LocalMap::first_of(std::int32_t x, std::int32_t y) const noexcept {
+  return cells_[entry_of(x, y)].first;
+}
+
+void LocalMap::enlist(std::int32_t surfel) {
+  if (2 * (used_ + 1) > cells_.size()) {
+    rehash();
+    return;
+  }
+  const Vector2d& p = surfels_[static_cast<std::size_t>(surfel)].p;
+  const std::int32_t x = cell_of(p.x());
+  const std::int32_t y = cell_of(p.y());
+  Cell& cell = cells_[entry_of(x, y)];
+  used_ += cell.first < 0 ? 1 : 0;
+  next_[static_cast<std::size_t>(surfel)] = cell.first;
+  cell = {.x = x, .y = y, .first = surfel};
+}
+
+// All surfels anew, in a table at most a quarter full.
+void LocalMap::rehash() {
+  std::size_t size = 1024;
+  while (size < 4 * (surfels_.size() + 1)) {
+    size *= 2;
+  }
+  cells_.assign(size, Cell{.x = 0, .y = 0, .first = -1});
+  used_ = 0;
+  next_.assign(surfels_.size(), -1);
+  for (std::size_t k = 0; k < surfels_.size(); ++k) {
+    enlist(static_cast<std::int32_t>(k));
+  }
+}
+
+template <typename Visit>
+void LocalMap::visit_near(const Vector2d& p, double distance, Visit&& visit) const noexcept {
+  if (surfels_.empty()) {
+    return;
+  }
+  const std::int32_t x_last = cell_of(p.x() + distance);
+  const std::int32_t y_first = cell_of(p.y() - distance);
+  const std::int32_t y_last = cell_of(p.y() + distance);
+  for (std::int32_t x = cell_of(p.x() - distance); x <= x_last; ++x) {
+    for (std::int32_t y = y_first; y <= y_last; ++y) {
+      for (std::int32_t k = first_of(x, y); k >= 0; k = next_[static_cast<std::size_t>(k)]) {
+        const Surfel& surfel = surfels_[static_cast<std::size_t>(k)];
+        visit(k, surfel, (surfel.p - p).squaredNorm());
+      }
+    }
+  }
+}
+
+std::int32_t LocalMap::mergeable(const Vector2d& p, const Vector2d& normal) const noexcept {
+  const bool surface = !normal.isZero(0.0);
+  std::int32_t found = -1;
+  double least = kMergeDistance * kMergeDistance;
+  visit_near(p, kMergeDistance, [&](std::int32_t k, const Surfel& surfel, double distance2) {
+    if (distance2 < least && surfel.is_surface() == surface &&
+        (!surface || surfel.normal.dot(normal) >= kSameSurface)) {
+      least = distance2;
+      found = k;
+    }
+  });
+  return found;
+}
+
+void LocalMap::insert(const PlanarScan& scan, const Pose2& pose, double clock) {
+  const Eigen::Matrix2d R = Eigen::Rotation2Dd(pose.z()).toRotationMatrix();
+  for (const ScanPoint& point : scan) {
+    if (point.surroundings == Surroundings::kSparse) {
+      continue;
+    }
+    const Vector2d p = R * point.p + pose.head<2>();
+    const Vector2d normal = R * point.normal;
+    const std::int32_t known = mergeable(p, normal);
+    if (known < 0) {
+      surfels_.push_back({.p = p,
+                          .normal = normal,
+                          .weight = 1.0,
+                          .seen = clock,
+                          .line_p = p,
+                          .line_normal = normal});
+      next_.push_back(-1);
+      enlist(static_cast<std::int32_t>(surfels_.size()) - 1);
+      changed_.push_back(static_cast<std::int32_t>(surfels_.size()) - 1);
+      continue;
+    }
+    Surfel& surfel = surfels_[static_cast<std::size_t>(known)];
+    const double weight = std::min(surfel.weight, kMostPoints);
+    // The surfel stays in its cell's list though its mean may leave the cell by some centimetres.
+    surfel.p = (surfel.p * weight + p) / (weight + 1.0);
+    if (surfel.is_surface()) {
+      surfel.normal = (surfel.normal * weight + normal).normalized();
+    }
+    surfel.weight = weight + 1.0;
+    surfel.seen = clock;
+    changed_.push_back(known);
+  }
+  draw_lines();
+}
+
+// Of all surfels whose neighborhood has changed.
+void LocalMap::draw_lines() {
+  stale_.assign(surfels_.size(), 0);
+  for (const std::int32_t k : changed_) {
+    const Vector2d p = surfels_[static_cast<std::size_t>(k)].p;
+    visit_near(p, kLineRadius, [&](std::int32_t other, const Surfel&, double) {
+      stale_[static_cast<std::size_t>(other)] = 1;
+    });
+  }
+  changed_.clear();
+  for (std::size_t k = 0; k < surfels_.size(); ++k) {
+    if (stale_[k] != 0) {
+      draw_line(surfels_[k]);
+    }
+  }
+}
+
+void LocalMap::forget(const Vector2d& center, double radius, double oldest) {
+  const auto gone = std::erase_if(surfels_, [&](const Surfel& surfel) {
+    return surfel.seen < oldest || (surfel.p - center).squaredNorm() > radius * radius;
+  });
+  if (gone > 0) {
+    rehash();
+  }
+}
+
+void LocalMap::clear() noexcept {
+  surfels_.clear();
+  next_.clear();
+  std::ranges::fill(cells_, Cell{.x = 0, .y = 0, .first = -1});
+  used_ = 0;
+}
+
+void LocalMap::draw_line(Surfel& surfel) const noexcept {
+  surfel.line_p = surfel.p;
+  surfel.line_normal = surfel.normal;
+  if (!surfel.is_surface()) {
+    return;
+  }
+  Vector2d p = Vector2d::Zero();
+  Vector2d normal = Vector2d::Zero();
+  double total = 0.0;
+  visit_near(surfel.p, kLineRadius, [&](std::int32_t, const Surfel& other, double distance2) {
+    const double u = 1.0 - distance2 / (kLineRadius * kLineRadius);
+    if (u > 0.0 && other.is_surface() && other.normal.dot(surfel.normal) >= kSameLine) {
+      const double weight = u * u * std::min(other.weight, kMostShare);
+      p += weight * other.p;
+      normal += weight * other.normal;
+      total += weight;
+    }
+  });
+  if (total > 0.0) {
+    surfel.line_p = p / total;
+    surfel.line_normal = normal.normalized();
+  }
+}
+
+const Surfel* LocalMap::nearest(const Vector2d& p, const Vector2d& normal,
+                                double distance) const noexcept {
+  const bool surface = !normal.isZero(0.0);
+  const Surfel* found = nullptr;
+  double least = distance * distance;
+  visit_near(p, distance, [&](std::int32_t, const Surfel& surfel, double distance2) {
+    if (distance2 < least &&
+        (!surface || (surfel.is_surface() && surfel.normal.dot(normal) >= kSameSide))) {
+      least = distance2;
+      found = &surfel;
+    }
+  });
+  return found;
+}
+
+}  // namespace thing_kin

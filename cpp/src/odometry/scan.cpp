@@ -1,0 +1,162 @@
+#include "thing_kin/odometry/scan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "thing_kin/core/error.hpp"
+
+namespace thing_kin {
+
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+
+// Neighbors that make a line lie within this radius, in m, or within so many steps of the beams.
+constexpr double kNormalRadius = 0.3;
+constexpr double kNormalSteps = 5.0;
+// At most so many to each side, so that dense scans cost no more.
+constexpr int kNormalReach = 8;
+// Neighbors further apart than this, in m, or than so many steps of the beams, are not of one
+// surface.
+constexpr double kGap = 0.12;
+constexpr double kGapSteps = 4.0;
+// A surface is flat to this, in m, root mean square.
+constexpr double kFlatness = 0.05;
+// A thing thinner than the beams' distance stands before what is behind it by this, in m.
+constexpr double kForeground = 0.1;
+
+void check_scanner_angle(double value, const char* name) {
+  if (!(std::abs(value) <= 4.0 * std::numbers::pi)) {
+    throw InvalidArgument(name, text(value), "an angle in rad, at most 4 pi in size");
+  }
+}
+
+// Whether beams are beside each other, on one surface as far as their distance tells.
+bool connected(const ScanPoint& a, const ScanPoint& b, double range, double step) {
+  const double gap = std::max(kGap, kGapSteps * step * range);
+  return std::abs(a.beam - b.beam) <= 2 && (a.p - b.p).squaredNorm() <= gap * gap;
+}
+
+struct Neighbors {
+  std::size_t first;
+  std::size_t last;
+};
+
+Neighbors neighbors_of(const PlanarScan& scan, std::span<const double> ranges, std::size_t i,
+                       double step) {
+  const auto range = [&](std::size_t k) { return ranges[static_cast<std::size_t>(scan[k].beam)]; };
+  const double radius = std::max(kNormalRadius, kNormalSteps * step * range(i));
+  const auto belongs = [&](std::size_t k, std::size_t to) {
+    return connected(scan[k], scan[to], std::max(range(k), range(to)), step) &&
+           (scan[k].p - scan[i].p).squaredNorm() < radius * radius;
+  };
+  Neighbors found{.first = i, .last = i};
+  for (int k = 0; k < kNormalReach && found.first > 0 && belongs(found.first - 1, found.first);
+       ++k) {
+    --found.first;
+  }
+  for (int k = 0;
+       k < kNormalReach && found.last + 1 < scan.size() && belongs(found.last + 1, found.last);
+       ++k) {
+    ++found.last;
+  }
+  return found;
+}
+
+// The direction across the points, and the variance of the points in it.
+double fit_across(std::span<const ScanPoint> points, Vector2d& across) {
+  Vector2d mean = Vector2d::Zero();
+  for (const ScanPoint& point : points) {
+    mean += point.p;
+  }
+  mean /= static_cast<double>(points.size());
+  Matrix2d spread = Matrix2d::Zero();
+  for (const ScanPoint& point : points) {
+    const Vector2d d = point.p - mean;
+    spread += d * d.transpose();
+  }
+  const double along = 0.5 * std::atan2(2.0 * spread(0, 1), spread(0, 0) - spread(1, 1));
+  across = {-std::sin(along), std::cos(along)};
+  return across.dot(spread * across) / static_cast<double>(points.size());
+}
+
+// Both sides are further away: the beams of this thing fell on nothing else.
+bool stands_alone(const PlanarScan& scan, std::span<const double> ranges, const Neighbors& own) {
+  if (own.first == 0 || own.last + 1 == scan.size()) {
+    return false;
+  }
+  const auto range = [&](std::size_t k) { return ranges[static_cast<std::size_t>(scan[k].beam)]; };
+  return range(own.first - 1) > range(own.first) + kForeground &&
+         range(own.last + 1) > range(own.last) + kForeground;
+}
+
+}  // namespace
+
+void check_scanner(const Scanner& scanner) {
+  check_scanner_angle(scanner.angle_min, "angle_min");
+  check_scanner_angle(scanner.angle_max, "angle_max");
+  if (scanner.n < 1 || scanner.n > kMostBeams) {
+    throw InvalidArgument("n", std::to_string(scanner.n), "1 to 65536 beams");
+  }
+  if (scanner.n > 1 && scanner.angle_min == scanner.angle_max) {
+    throw InvalidArgument("angle_max", text(scanner.angle_max), "another angle than angle_min");
+  }
+  if (!(scanner.range_min >= 0.0 && std::isfinite(scanner.range_min))) {
+    throw InvalidArgument("range_min", text(scanner.range_min), "a finite number >= 0");
+  }
+  if (!(scanner.range_max > scanner.range_min)) {
+    throw InvalidArgument("range_max", text(scanner.range_max), "a number > range_min");
+  }
+  if (!scanner.mount.allFinite() || scanner.mount.cwiseAbs().maxCoeff() > kMostRange) {
+    throw InvalidArgument("mount", "an entry that is not finite or over 1e4", "a moderate pose");
+  }
+  if (!(scanner.scan_time >= 0.0 && std::isfinite(scanner.scan_time))) {
+    throw InvalidArgument("scan_time", text(scanner.scan_time), "a finite number of seconds >= 0");
+  }
+  if (!(scanner.noise > 0.0 && std::isfinite(scanner.noise))) {
+    throw InvalidArgument("noise", text(scanner.noise), "a finite number of metres > 0");
+  }
+}
+
+void read_scan(const Scanner& scanner, std::span<const double> ranges, const Twist2& twist,
+               PlanarScan& out) {
+  out.clear();
+  const double farthest = std::min(scanner.range_max, kMostRange);
+  const double duration = scanner.n > 1 ? scanner.scan_time / (scanner.n - 1) : 0.0;
+  const bool moves = duration > 0.0 && !twist.isZero(0.0);
+  for (int beam = 0; beam < scanner.n; ++beam) {
+    const double range = ranges[static_cast<std::size_t>(beam)];
+    if (!(range > 0.0 && range >= scanner.range_min && range < farthest)) {
+      continue;
+    }
+    Pose2 laser = scanner.mount;
+    if (moves) {
+      laser = compose(se2_exp(twist * (duration * beam)), laser);
+    }
+    const double angle = laser.z() + scanner.angle(beam);
+    const Vector2d direction(std::cos(angle), std::sin(angle));
+    // The normal holds the beam's direction until it is known.
+    out.push_back({.p = laser.head<2>() + range * direction, .normal = direction, .beam = beam});
+  }
+  const double step = std::abs(scanner.increment());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const Neighbors near = neighbors_of(out, ranges, i, step);
+    const std::size_t count = near.last - near.first + 1;
+    ScanPoint& point = out[i];
+    Vector2d across = Vector2d::Zero();
+    if (count < 3) {
+      point.surroundings =
+          stands_alone(out, ranges, near) ? Surroundings::kCorner : Surroundings::kSparse;
+    } else if (fit_across({&out[near.first], count}, across) > kFlatness * kFlatness) {
+      point.surroundings = Surroundings::kCorner;
+      across.setZero();
+    } else {
+      point.surroundings = Surroundings::kSurface;
+      across *= across.dot(point.normal) > 0.0 ? -1.0 : 1.0;
+    }
+    point.normal = across;
+  }
+}
+
+}  // namespace thing_kin
