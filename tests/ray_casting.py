@@ -54,10 +54,14 @@ def cross(a, b):
     return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
 
 
+STEP_ASIDE = 0.3  # m
+
+
 def cast(world, poses, angles, times=None, rng=None):
     """Exact ranges (B,) of beams that leave poses (B, 3) at angles (B,) to them, at times (B,).
 
-    Walkers are where they are at the middle of the times: they go a centimetre in a scan.
+    Walkers are where they are at the middle of the times: they go a centimetre in a scan. None is
+    nearer to the scanner than STEP_ASIDE: who would be is not there.
     """
     origins = poses[:, :2]
     heading = poses[:, 2] + angles
@@ -67,6 +71,8 @@ def cast(world, poses, angles, times=None, rng=None):
         passes = rng.random(to_walls.shape) < world.clear
         to_walls[passes] = np.inf
     discs = world.discs_at(0.0 if times is None else float(np.mean(times)))
+    away = np.linalg.norm(discs[:, :2] - origins.mean(axis=0), axis=1) - discs[:, 2]
+    discs = discs[(away > STEP_ASIDE) | (np.arange(len(discs)) < len(world.circles))]
     distances = np.hstack([to_walls, to_circles(origins, directions, discs)])
     return distances.min(axis=1, initial=np.inf)
 

@@ -17,7 +17,8 @@ LOST = (0.1, np.radians(3.0))
 
 
 def scanner_of(sensor: Sensor):
-    return odometry.Scanner(**sensor.arguments())
+    given = sensor.arguments()
+    return odometry.Scanner(**{**given, "noise": given["noise"] or 0.01})
 
 
 def errors_of(found, truth):

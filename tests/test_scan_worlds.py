@@ -59,6 +59,15 @@ def test_walkers_walk():
         np.testing.assert_allclose(world.discs_at(t), [[x, 0.0, 0.5]])
 
 
+def test_walkers_step_aside():
+    world = World(np.array([[5.0, -9, 5, 9]]), walkers=np.array([[0.0, 1, 4, 1, 0.2, 1.0]]))
+    up = np.array([np.pi / 2])
+    for x, expected in ((0.0, 0.8), (0.1, 1 - np.sqrt(0.03))):
+        np.testing.assert_allclose(cast(world, np.array([[x, 0.0, 0.0]]), up), expected)
+    assert np.isinf(cast(world, np.array([[0.0, 0.6, 0.0]]), up)).all()
+    assert np.isinf(cast(world, np.array([[0.0, 1.0, 0.0]]), up)).all()
+
+
 def test_planar_poses():
     a, b = RNG(1).normal(size=(2, 5, 3))
     np.testing.assert_allclose(compose(a, between(a, b)), b, atol=1e-14)

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import ArrayLike, NDArray
 
-    from thing_kin.odometry import Match, Scanner
+    from thing_kin.odometry import Scanner, ScanMatch
 
     Array = NDArray[np.float64]
 
@@ -82,7 +82,7 @@ def plot_scan_match(
     scanner: Scanner,
     ranges_a: ArrayLike,
     ranges_b: ArrayLike,
-    match: Match,
+    match: ScanMatch,
     *,
     sigmas: float = 2.0,
     axes: Axes | None = None,
@@ -98,7 +98,7 @@ def plot_scan_match(
     scanner : odometry.Scanner
     ranges_a, ranges_b : (n,), m
         As given to `odometry.match`.
-    match : odometry.Match
+    match : odometry.ScanMatch
         What it returned; its `pose`, `covariance`, `status` and `degenerate` are drawn.
     sigmas : float
         Half axes of the ellipse, in standard deviations.
