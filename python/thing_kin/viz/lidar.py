@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import ArrayLike, NDArray
 
-    from thing_kin.odometry import Scanner, ScanMatch
+    from thing_kin.odometry import ScanMatch, Scanner
 
     Array = NDArray[np.float64]
 
