@@ -135,6 +135,14 @@ bool copy_floats(py::handle argument, py::ssize_t count, double* out) noexcept {
   return true;
 }
 
+py::ssize_t count_of(std::initializer_list<py::ssize_t> shape) {
+  py::ssize_t count = 1;
+  for (const py::ssize_t length : shape) {
+    count *= length;
+  }
+  return count;
+}
+
 // A C-ordered float64 array in its own memory; nullptr if it is none of this shape.
 const double* plain_data(py::handle argument, std::initializer_list<py::ssize_t> shape) {
   const auto& api = py::detail::npy_api::get();
@@ -153,18 +161,21 @@ const double* plain_data(py::handle argument, std::initializer_list<py::ssize_t>
 
 }  // namespace
 
+bool copy_plain(py::handle argument, std::initializer_list<py::ssize_t> shape,
+                double* out) noexcept {
+  const double* const data = plain_data(argument, shape);
+  if (data != nullptr) {
+    std::copy_n(data, count_of(shape), out);
+  }
+  return data != nullptr;
+}
+
 bool read_plain(py::handle argument, std::initializer_list<py::ssize_t> shape,
                 double* out) noexcept {
-  py::ssize_t count = 1;
-  for (const py::ssize_t length : shape) {
-    count *= length;
-  }
-  if (const double* data = plain_data(argument, shape)) {
-    std::copy_n(data, count, out);
-  } else if (shape.size() != 1 || !copy_floats(argument, count, out)) {
-    return false;
-  }
-  return all_finite(out, static_cast<std::size_t>(count));
+  const py::ssize_t count = count_of(shape);
+  const bool copied =
+      copy_plain(argument, shape, out) || (shape.size() == 1 && copy_floats(argument, count, out));
+  return copied && all_finite(out, static_cast<std::size_t>(count));
 }
 
 SmallVector read_number_or_vector(py::handle argument, const char* name, py::ssize_t n,

@@ -69,6 +69,10 @@ Batch read(py::handle argument, const char* name, const std::vector<py::ssize_t>
 bool read_plain(py::handle argument, std::initializer_list<py::ssize_t> shape,
                 double* out) noexcept;
 
+/// The same for an array that is checked elsewhere: it may have NaN or inf.
+bool copy_plain(py::handle argument, std::initializer_list<py::ssize_t> shape,
+                double* out) noexcept;
+
 /// n numbers, or one that stands for all.
 SmallVector read_number_or_vector(py::handle argument, const char* name, py::ssize_t n,
                                   Finite finite);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "quick_method.hpp"
 #include "thing_kin/core/error.hpp"
 #include "thing_kin/estimation/numeric_jacobian.hpp"
 
@@ -18,10 +19,7 @@ std::string type_name(py::handle object) { return py::str(py::type::of(object).a
 template <typename Model>
 const Model* model_in(py::handle argument) {
   static PyObject* const type = py::type::of<Model>().release().ptr();
-  if (reinterpret_cast<PyObject*>(Py_TYPE(argument.ptr())) != type) {
-    return nullptr;
-  }
-  return argument.cast<const Model*>();
+  return object_of<Model>(argument.ptr(), reinterpret_cast<PyTypeObject*>(type));
 }
 
 void check_function(py::handle function, const char* name) {
@@ -94,7 +92,7 @@ void read_into(py::handle argument, const char* name, py::ssize_t rows, py::ssiz
 
 void read_into(py::handle argument, const char* name, py::ssize_t size, StateMatrix& out) {
   out.resize(size, size);
-  if (!read_plain(argument, {size, size}, out.data())) {
+  if (!copy_plain(argument, {size, size}, out.data())) {
     const Batch batch = read(argument, name, {size, size}, false);
     std::copy_n(batch.data, size * size, out.data());
   }
@@ -154,16 +152,19 @@ Rows::Rows(py::handle argument, const char* name, const std::vector<py::ssize_t>
   }
 }
 
-Batch read_record(py::handle record) {
-  std::vector<py::ssize_t> shape;
+std::vector<py::ssize_t> read_shape(py::handle argument, const char* name) {
   try {
-    shape = py::module_::import("numpy").attr("shape")(record).cast<std::vector<py::ssize_t>>();
+    return py::module_::import("numpy").attr("shape")(argument).cast<std::vector<py::ssize_t>>();
   } catch (py::error_already_set& error) {
     if (!error.matches(PyExc_Exception) || error.matches(PyExc_MemoryError)) {
       throw;
     }
-    throw InvalidArgument("record", type_name(record), "an array of real numbers");
+    throw InvalidArgument(name, type_name(argument), "an array of real numbers");
   }
+}
+
+Batch read_record(py::handle record) {
+  const std::vector<py::ssize_t> shape = read_shape(record, "record");
   const bool table = shape.size() == 2 && shape[1] >= 1 && shape[1] <= kMaxState;
   if (!(table || shape.size() == 1) || shape[0] < 1) {
     throw InvalidArgument(

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "array.hpp"
 #include "thing_kin/estimation/unscented_kalman.hpp"
@@ -51,7 +52,7 @@ class Indices : public py::object {
 void read_into(py::handle argument, const char* name, py::ssize_t size, StateVector& out);
 void read_into(py::handle argument, const char* name, py::ssize_t rows, py::ssize_t cols,
                ModelMatrix& out);
-/// A square matrix that the core will check.
+/// A square matrix that the core will check: for NaN too.
 void read_into(py::handle argument, const char* name, py::ssize_t size, StateMatrix& out);
 /// A vector of any size up to kMaxState, or a number.
 void read_measurement(py::handle argument, const char* name, StateVector& out);
@@ -67,6 +68,9 @@ struct Rows {
        py::ssize_t count);
   const double* at(py::ssize_t i) const { return batch.item(batch.single ? 0 : i); }
 };
+
+/// As numpy.shape(). Throws InvalidArgument for what is no array.
+std::vector<py::ssize_t> read_shape(py::handle argument, const char* name);
 
 /// (N, m) with rows of NaN for what is missing, or (N,) for m = 1.
 Batch read_record(py::handle record);

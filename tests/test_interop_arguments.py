@@ -7,15 +7,20 @@ from scipy.spatial.transform import Rotation
 
 import thing_kin as tk
 from peer_types import POSES, ROTATIONS, SEVERAL_POSES, SEVERAL_ROTATIONS, Peer, params
-from public_arrays import ARGUMENTS, Argument
+from public_arrays import ARGUMENTS, FILTERS, Argument
 from test_import import foreign, modules_after
+
+FILTER_LABELS = {argument.label for argument in FILTERS}
 
 
 def of_shape(*shape: int) -> list[Argument]:
     return [
         argument
         for argument in ARGUMENTS
-        if np.shape(argument.good) == shape and not argument.name.endswith(("covariance", "noise"))
+        if np.shape(argument.good) == shape
+        and argument.label
+        not in FILTER_LABELS  # theirs are states, covariances and matrices of any size
+        and not argument.name.endswith(("covariance", "noise"))
     ]
 
 

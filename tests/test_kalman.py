@@ -197,6 +197,23 @@ def test_nees_and_nis_are_in_their_bands(kind: str, model: Any) -> None:
         assert report.consistent, str(report)
 
 
+def test_nees_and_nis_of_the_linear_filter_are_in_their_bands() -> None:
+    """500 seeded runs of a textbook model, drawn by numpy alone."""
+    rng, steps = np.random.default_rng(8), 40
+    nees, nis = [], []
+    for _ in range(500):
+        truth, record = [rng.multivariate_normal(X0, P0)], []
+        for _ in range(steps):
+            truth.append(rng.multivariate_normal(F @ truth[-1], Q))
+            record.append(rng.multivariate_normal(H @ truth[-1], R))
+        run = est.KalmanFilter(X0, P0).run(np.array(record), F=F, Q=Q, H=H, R=R)
+        nees.append(est.nees(np.array(truth[1:]), run.x, run.P))
+        nis.append(run.nis)
+    for squares, dof in ((nees, 4), (nis, 2)):
+        report = est.consistency_report(squares, dof)
+        assert report.consistent, str(report)
+
+
 @pytest.mark.parametrize("bad", [np.nan, np.inf])
 def test_bad_numbers_are_refused_and_change_nothing(bad: float) -> None:
     filter = est.KalmanFilter(X0, P0)

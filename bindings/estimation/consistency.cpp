@@ -31,9 +31,11 @@ FloatOrArray nees(const ArrayLike& truth, const ArrayLike& x, const ArrayLike& P
                   const Indices& angles) {
   const py::ssize_t n = last_axis(P);
   Batches<3> batches{read(truth, "truth", {n}), read(x, "x", {n}), read(P, "P", {n, n})};
-  py::ssize_t count = 0;
+  py::ssize_t count = 1;
+  bool single = true;
   for (const Batch& batch : batches) {
     count = batch.single ? count : batch.count;
+    single = single && batch.single;
   }
   constexpr std::array<const char*, 3> kNames{"truth", "x", "P"};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -55,7 +57,7 @@ FloatOrArray nees(const ArrayLike& truth, const ArrayLike& x, const ArrayLike& P
                             "positive definite covariances");
     }
   }
-  if (count == 0) {
+  if (single) {
     return py::reinterpret_steal<FloatOrArray>(PyFloat_FromDouble(*out.data()));
   }
   return py::reinterpret_steal<FloatOrArray>(out.release());

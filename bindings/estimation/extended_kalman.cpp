@@ -2,6 +2,7 @@
 
 #include "estimation/nonlinear_filter.hpp"
 #include "estimation_bindings.hpp"
+#include "quick_method.hpp"
 
 namespace thing_kin::python {
 
@@ -46,13 +47,10 @@ array([0.985, 1.971, 0.091])
              }),
              py::arg("x"), py::arg("P"), py::kw_only(), py::arg("angles") = py::tuple());
   bind_covariance<Filter>(filter);
-  filter.def(
-      "predict",
-      [](Filter& self, const MotionLike& f, const OptionalArray& Q,
-         const OptionalFunction& jacobian,
-         const OptionalNumber& dt) { return predict_nonlinear(self, f, Q, jacobian, dt); },
-      py::arg("f"), py::arg("Q") = py::none(), py::arg("jacobian") = py::none(), py::kw_only(),
-      py::arg("dt") = py::none(), R"(One step in time: x = f(x), P = F P F^T + Q, [M17] (3.24).
+  QuickMethod<&predict_nonlinear<Filter>>::define(
+      filter, "predict", py::arg("f"), py::arg("Q") = py::none(), py::arg("jacobian") = py::none(),
+      py::kw_only(), py::arg("dt") = py::none(),
+      R"(One step in time: x = f(x), P = F P F^T + Q, [M17] (3.24).
 
 Parameters
 ----------
@@ -88,12 +86,8 @@ True
 >>> filter.x.round(3)
 array([1.341, 1.   ])
 )");
-  filter.def(
-      "update",
-      [](Filter& self, const ArrayLike& z, const MeasurementLike& h, const ArrayLike& R,
-         const OptionalFunction& jacobian, const OptionalNumber& gate,
-         const Indices& angles) { return update_nonlinear(self, z, h, R, jacobian, gate, angles); },
-      py::arg("z"), py::arg("h"), py::arg("R"), py::arg("jacobian") = py::none(),
+  QuickMethod<&update_nonlinear<Filter>>::define(
+      filter, "update", py::arg("z"), py::arg("h"), py::arg("R"), py::arg("jacobian") = py::none(),
       py::arg("gate") = py::none(), py::kw_only(), py::arg("angles") = py::tuple(),
       R"(A measurement z = h(x) + noise, [M17] (3.25).
 

@@ -4,6 +4,7 @@
 
 #include "estimation/filter_run.hpp"
 #include "estimation_bindings.hpp"
+#include "quick_method.hpp"
 #include "thing_kin/core/error.hpp"
 
 namespace thing_kin::python {
@@ -12,12 +13,12 @@ namespace {
 
 // How many inputs B has.
 py::ssize_t inputs_of(py::handle u, bool rows) {
-  const auto shape = py::module_::import("numpy").attr("shape")(u).cast<py::tuple>();
+  const std::vector<py::ssize_t> shape = read_shape(u, "u");
   const std::size_t axes = shape.size();
   if (axes < 1 || axes > (rows ? 2U : 1U)) {
     throw InvalidArgument("u", std::to_string(axes) + " axes", rows ? "(N, k) or (k,)" : "(k,)");
   }
-  return shape[axes - 1].cast<py::ssize_t>();
+  return shape.back();
 }
 
 void check_input(const OptionalArray& B, const OptionalArray& u) {
@@ -149,10 +150,10 @@ array([0.1671, 1.0066])
              }),
              py::arg("x"), py::arg("P"), py::kw_only(), py::arg("angles") = py::tuple());
   bind_covariance<KalmanFilter>(filter);
-  filter
-      .def("predict", &predict_kalman, py::arg("F"), py::arg("Q"), py::arg("B") = py::none(),
-           py::arg("u") = py::none(),
-           R"(One step in time: x = F x + B u, P = F P F^T + Q, [X21] (2.3).
+  QuickMethod<&predict_kalman>::define(
+      filter, "predict", py::arg("F"), py::arg("Q"), py::arg("B") = py::none(),
+      py::arg("u") = py::none(),
+      R"(One step in time: x = F x + B u, P = F P F^T + Q, [X21] (2.3).
 
 Parameters
 ----------
@@ -181,10 +182,11 @@ Examples
 True
 >>> filter.x, filter.P
 (array([7.]), array([[1.5]]))
-)")
-      .def("update", &update_kalman, py::arg("z"), py::arg("H"), py::arg("R"),
-           py::arg("gate") = py::none(), py::kw_only(), py::arg("angles") = py::tuple(),
-           R"(A measurement z = H x + noise, [X21] (2.4), (2.5), P in Joseph's form.
+)");
+  QuickMethod<&update_kalman>::define(
+      filter, "update", py::arg("z"), py::arg("H"), py::arg("R"), py::arg("gate") = py::none(),
+      py::kw_only(), py::arg("angles") = py::tuple(),
+      R"(A measurement z = H x + noise, [X21] (2.4), (2.5), P in Joseph's form.
 
 Parameters
 ----------
@@ -217,11 +219,12 @@ Examples
 False
 >>> round(filter.nis, 6), filter.status
 (40.5, 'rejected')
-)")
-      .def("run", &run_kalman, py::arg("record"), py::kw_only(), py::arg("F"), py::arg("Q"),
-           py::arg("H"), py::arg("R"), py::arg("B") = py::none(), py::arg("u") = py::none(),
-           py::arg("gate") = py::none(), py::arg("angles") = py::tuple(), py::arg("smooth") = false,
-           R"(Predict, then update, for each row of a record, in the core.
+)");
+  filter.def("run", &run_kalman, py::arg("record"), py::kw_only(), py::arg("F"), py::arg("Q"),
+             py::arg("H"), py::arg("R"), py::arg("B") = py::none(), py::arg("u") = py::none(),
+             py::arg("gate") = py::none(), py::arg("angles") = py::tuple(),
+             py::arg("smooth") = false,
+             R"(Predict, then update, for each row of a record, in the core.
 
 The filter is then where the record ends. Smoothing is that of Rauch, Tung & Striebel.
 

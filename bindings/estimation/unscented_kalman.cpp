@@ -5,6 +5,7 @@
 
 #include "estimation/nonlinear_filter.hpp"
 #include "estimation_bindings.hpp"
+#include "quick_method.hpp"
 
 namespace thing_kin::python {
 
@@ -27,6 +28,17 @@ Array points_of(UnscentedKalmanFilter& self) {
   Array points = make_array(shape.data(), 2);
   std::copy_n(X.data(), X.size(), points.mutable_data());
   return points;
+}
+
+bool predict_unscented(UnscentedKalmanFilter& self, const MotionLike& f, const OptionalArray& Q,
+                       const OptionalNumber& dt) {
+  return predict_nonlinear(self, f, Q, py::reinterpret_borrow<OptionalFunction>(py::none()), dt);
+}
+
+bool update_unscented(UnscentedKalmanFilter& self, const ArrayLike& z, const MeasurementLike& h,
+                      const ArrayLike& R, const OptionalNumber& gate, const Indices& angles) {
+  const auto jacobian = py::reinterpret_borrow<OptionalFunction>(py::none());
+  return update_nonlinear(self, z, h, R, jacobian, gate, angles);
 }
 
 }  // namespace
@@ -112,14 +124,10 @@ Examples
 array([ 1.,  3., -1.])
 )");
   bind_covariance<Filter>(filter);
-  filter.def(
-      "predict",
-      [](Filter& self, const MotionLike& f, const OptionalArray& Q, const OptionalNumber& dt) {
-        const auto jacobian = py::reinterpret_borrow<OptionalFunction>(py::none());
-        return predict_nonlinear(self, f, Q, jacobian, dt);
-      },
-      py::arg("f"), py::arg("Q") = py::none(), py::kw_only(), py::arg("dt") = py::none(),
-      R"(One step in time, [X21] (2.6).
+  QuickMethod<&predict_unscented>::define(filter, "predict", py::arg("f"),
+                                          py::arg("Q") = py::none(), py::kw_only(),
+                                          py::arg("dt") = py::none(),
+                                          R"(One step in time, [X21] (2.6).
 
 Parameters
 ----------
@@ -153,15 +161,10 @@ True
 >>> filter.x.round(3)
 array([0.922, 1.   ])
 )");
-  filter.def(
-      "update",
-      [](Filter& self, const ArrayLike& z, const MeasurementLike& h, const ArrayLike& R,
-         const OptionalNumber& gate, const Indices& angles) {
-        const auto jacobian = py::reinterpret_borrow<OptionalFunction>(py::none());
-        return update_nonlinear(self, z, h, R, jacobian, gate, angles);
-      },
-      py::arg("z"), py::arg("h"), py::arg("R"), py::arg("gate") = py::none(), py::kw_only(),
-      py::arg("angles") = py::tuple(), R"(A measurement z = h(x) + noise, [X21] (2.7), (2.8).
+  QuickMethod<&update_unscented>::define(filter, "update", py::arg("z"), py::arg("h"), py::arg("R"),
+                                         py::arg("gate") = py::none(), py::kw_only(),
+                                         py::arg("angles") = py::tuple(),
+                                         R"(A measurement z = h(x) + noise, [X21] (2.7), (2.8).
 
 Parameters
 ----------

@@ -23,7 +23,7 @@ ScanMatch match(const Scanner& scanner, const ArrayLike& ranges_a, const ArrayLi
                 const MatchOptions& options) {
   const std::vector<double> first = read_ranges(scanner, ranges_a, "ranges_a");
   const std::vector<double> second = read_ranges(scanner, ranges_b, "ranges_b");
-  PlanarEstimate start{.pose = read_planar(guess, "guess"), .covariance = default_covariance()};
+  MatchGuess start{.pose = read_planar(guess, "guess"), .covariance = default_covariance()};
   if (!guess_covariance.is_none()) {
     start.covariance = read_planar_covariance(guess_covariance, "guess_covariance");
   }

@@ -11,6 +11,7 @@
 
 #include "random_chain.hpp"
 #include "thing_kin/core/simd.hpp"
+#include "thing_kin/estimation/end_effector.hpp"
 #include "thing_kin/estimation/extended_kalman.hpp"
 #include "thing_kin/estimation/kalman.hpp"
 #include "thing_kin/estimation/pose_belief.hpp"
@@ -26,6 +27,7 @@
 #include "thing_kin/linalg/null_space.hpp"
 #include "thing_kin/linalg/pseudoinverse.hpp"
 #include "thing_kin/model/robots.hpp"
+#include "thing_kin/odometry/mecanum.hpp"
 #include "thing_kin/planning/path_follower.hpp"
 
 namespace {
@@ -350,6 +352,25 @@ TEST(NoHeap, TaskPriorityWithinLimits) {
     EXPECT_GT(step->iterations, 0);
     EXPECT_TRUE(dq.allFinite());
   }
+}
+
+TEST(NoHeap, OdometryAndTheHandOnIt) {
+  const Chain robot = robots::thing();
+  const MecanumOdometry wheels(0.0759, 0.6);
+  ArmUncertainty uncertainty;
+  uncertainty.joints = 1e-6 * SmallMatrix::Identity(6, 6);
+  const JointVector q = JointVector::Constant(6, 0.3);
+  PlanarEstimate base;
+  EndEffector hand;
+  EXPECT_EQ(allocations_in([&] {
+              for (int k = 0; k < 10; ++k) {
+                const Eigen::Vector4d w = wheels.wheel_speeds({0.5, 0.1, 0.2});
+                move(base, wheels.twist(w) * 0.02, default_twist_covariance() * 0.0004);
+                hand = end_effector(robot, q.data(), base, uncertainty, robot.tool());
+              }
+            }),
+            0);
+  EXPECT_GT(hand.covariance.trace(), 0.0);
 }
 
 TEST(NoHeap, PathFollower) {

@@ -63,8 +63,7 @@ FilterStatus ExtendedKalmanFilter::predict(const MotionModel& model, double dt,
     model.noise(state_.x.data(), dt, own.data());
     noise = own.data();
   }
-  model.step(state_.x.data(), dt, fx.data());
-  model.jacobian(state_.x.data(), dt, F.data());
+  model.linearize(state_.x.data(), dt, fx.data(), F.data());
   done(predict_linear(state_, fx.data(), F.data(), noise));
   note_transition(F.data(), noise);
   return status_;

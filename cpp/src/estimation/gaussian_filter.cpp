@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
-#include <numbers>
 
 #include "thing_kin/core/chi_square.hpp"
 #include "thing_kin/core/error.hpp"
@@ -43,13 +43,13 @@ const char* name_of(FilterStatus status) noexcept {
 }
 
 double FilterUpdate::log_likelihood() const noexcept {
-  const auto rows = static_cast<double>(innovation.size());
-  return -0.5 * (nis + log_det + rows * std::log(2.0 * std::numbers::pi));
+  constexpr double kLogTwoPi = 1.8378770664093454836;
+  return -0.5 * (nis + log_det + static_cast<double>(innovation.size()) * kLogTwoPi);
 }
 
 const double* KnownCovariance::operator()(const double* A, int n, const char* name) {
   const auto size = static_cast<std::size_t>(n * n);
-  if (given_.rows() == n && std::equal(A, A + size, given_.data())) {
+  if (given_.rows() == n && std::memcmp(A, given_.data(), size * sizeof(double)) == 0) {
     return checked_.data();
   }
   const Eigen::Map<const Eigen::MatrixXd> matrix(A, n, n);

@@ -1,219 +1,91 @@
 #include "thing_kin/estimation/linear_steps.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
-#include "thing_kin/core/finite.hpp"
-#include "thing_kin/linalg/symmetric_kernels.hpp"
+#include "innovation.hpp"
 
 namespace thing_kin {
 
 namespace {
 
-constexpr std::size_t kStateEntries = static_cast<std::size_t>(kMaxState) * kMaxState;
-using Entries = std::array<double, kStateEntries>;
-using Column = std::array<double, static_cast<std::size_t>(kMaxState)>;
-
-// Commits what a step has made, if it is one.
-template <int N>
-FilterStatus commit(Gaussian& state, double* x, double* P) noexcept {
-  const int n = state.size();
-  state.angles.wrap(x);
-  if (!all_finite(x, static_cast<std::size_t>(n)) ||
-      !all_finite(P, static_cast<std::size_t>(n * n))) {
-    return FilterStatus::kNotFinite;
-  }
-  if (!kernels::keep_positive<N>(P, n, kMostInflation)) {
-    return FilterStatus::kNotPositive;
-  }
-  std::copy_n(x, n, state.x.data());
-  std::copy_n(P, n * n, state.P.data());
-  return FilterStatus::kOk;
-}
-
 template <int N>
 FilterStatus predict_sized(Gaussian& state, const double* fx, const double* F,
                            const double* Q) noexcept {
   const int n = kernels::size_of<N>(state.size());
-  Entries P;
-  kernels::congruence<N>(F, state.P.data(), P.data(), n);
-  for (int i = 0; i < n * n; ++i) {
-    P[static_cast<std::size_t>(i)] += Q[i];
-  }
-  kernels::symmetrize<N>(P.data(), n);
-  Column x;
+  EntriesOf<N> P;
+  std::copy_n(Q, n * n, P.data());
+  kernels::add_congruence<N>(F, state.P.data(), P.data(), n);
+  std::array<double, kRowsOf<N>> x;
   std::copy_n(fx, n, x.data());
   return commit<N>(state, x.data(), P.data());
 }
 
-// S = H P H^T + R, kept positive: where P H^T has lost the rows of H to rounding, R grows.
-struct Innovation {
-  Entries PHt;   // (n, m) in columns
-  Entries S, R;  // (m, m)
-  Entries root;  // (m, m), S's lower factor, in columns
-};
-
-template <int N>
-bool see(const Gaussian& state, const LinearMeasurement& measured, Innovation& seen) noexcept {
+// S = H P H^T + R, by its lower triangle.
+template <int N, int M>
+void see(const Gaussian& state, const LinearMeasurement& measured,
+         Innovation<N, M>& seen) noexcept {
   const int n = kernels::size_of<N>(state.size());
-  const int m = measured.rows;
-  if (m < 1 || n < 1) {
-    return false;
-  }
-  kernels::times_transposed<N>(state.P.data(), measured.H, seen.PHt.data(), n, m, n);
-  Entries turned;
-  kernels::transpose(seen.PHt.data(), turned.data(), n, m);
-  kernels::times_transposed<0>(turned.data(), measured.H, seen.S.data(), m, m, n);
+  const int m = kernels::size_of<M>(measured.rows);
+  kernels::times_transposed<N>(state.P.data(), measured.H, seen.cross.data(), n, m, n);
   std::copy_n(measured.R, m * m, seen.R.data());
-  for (std::size_t i = 0, all = static_cast<std::size_t>(m * m); i < all; ++i) {
-    seen.S[i] += seen.R[i];
-  }
-  kernels::symmetrize<0>(seen.S.data(), m);
-  Entries S;
-  std::copy_n(seen.S.data(), m * m, S.data());
-  if (!kernels::keep_positive<0>(S.data(), m, kMostInflation)) {
-    return false;
-  }
-  for (int i = 0; i < m; ++i) {
-    const auto k = static_cast<std::size_t>(i * m + i);
-    seen.R[k] += S[k] - seen.S[k];
-    if (S[k] == 0.0) {
-      return false;
-    }
-  }
-  std::copy_n(S.data(), m * m, seen.S.data());
-  return kernels::cholesky<0>(seen.S.data(), seen.root.data(), m);
-}
-
-// K = P H^T S^-1, by columns: K L L^T = P H^T.
-void solve_gain(const Innovation& seen, double* K, int n, int m) noexcept {
-  const double* L = seen.root.data();
-  std::copy_n(seen.PHt.data(), n * m, K);
   for (int j = 0; j < m; ++j) {
-    for (int k = 0; k < j; ++k) {
-      for (int i = 0; i < n; ++i) {
-        K[j * n + i] -= K[k * n + i] * L[k * m + j];
+    const double* const column = seen.cross.data() + j * n;
+    for (int i = j; i < m; ++i) {
+      double sum = measured.R[j * m + i];
+      for (int k = 0; k < n; ++k) {
+        sum += measured.H[i * n + k] * column[k];
       }
-    }
-    const double inverse = 1.0 / L[j * m + j];
-    for (int i = 0; i < n; ++i) {
-      K[j * n + i] *= inverse;
-    }
-  }
-  for (int j = m - 1; j >= 0; --j) {
-    for (int k = j + 1; k < m; ++k) {
-      for (int i = 0; i < n; ++i) {
-        K[j * n + i] -= K[k * n + i] * L[j * m + k];
-      }
-    }
-    const double inverse = 1.0 / L[j * m + j];
-    for (int i = 0; i < n; ++i) {
-      K[j * n + i] *= inverse;
+      seen.S[static_cast<std::size_t>(j * m + i)] = sum;
     }
   }
 }
 
-// The NIS and ln det S from S's factor.
-void judge(const Innovation& seen, const LinearMeasurement& measured, FilterUpdate& update) {
-  const int m = measured.rows;
-  const double* L = seen.root.data();
-  Column y;
-  double nis = 0.0;
-  double product = 1.0;
-  double log_det = 0.0;
-  for (int i = 0; i < m; ++i) {
-    double value = measured.residual[i];
-    for (int k = 0; k < i; ++k) {
-      value -= L[k * m + i] * y[static_cast<std::size_t>(k)];
-    }
-    value /= L[i * m + i];
-    y[static_cast<std::size_t>(i)] = value;
-    nis += value * value;
-    product *= L[i * m + i];
-    if ((i & 1) != 0 || i + 1 == m) {  // two at a time overflow only with their squares
-      log_det += 2.0 * std::log(product);
-      product = 1.0;
-    }
-  }
-  update.nis = nis;
-  update.log_det = log_det;
-}
-
-void note(const Innovation& seen, const LinearMeasurement& measured, const double* K, int n,
-          FilterUpdate& update) noexcept {
-  const int m = measured.rows;
-  update.innovation.resize(m);
-  update.S.resize(m, m);
-  update.K.resize(n, m);
-  std::copy_n(measured.residual, m, update.innovation.data());
-  std::copy_n(seen.S.data(), m * m, update.S.data());
-  std::copy_n(K, n * m, update.K.data());
-  judge(seen, measured, update);
-  update.any = true;
-}
-
-// (I - K H) P (I - K H)^T + K R K^T
-template <int N>
-void joseph(const Gaussian& state, const LinearMeasurement& measured, const Innovation& seen,
-            const double* K, double* P) noexcept {
+// The lower triangle of (I - K H) P (I - K H)^T + K R K^T.
+template <int N, int M>
+void joseph(const Gaussian& state, const LinearMeasurement& measured, const Innovation<N, M>& seen,
+            double* P) noexcept {
   const int n = kernels::size_of<N>(state.size());
-  const int m = measured.rows;
-  Entries A;  // I - K H, in rows
-  for (int i = 0; i < n; ++i) {
-    double* const row = A.data() + i * n;
-    std::fill_n(row, n, 0.0);
-    row[i] = 1.0;
+  const int m = kernels::size_of<M>(measured.rows);
+  EntriesOf<N> A;  // I - K H, in columns: those that H does not see are the identity's
+  std::fill_n(A.data(), n * n, 0.0);
+  for (int j = 0; j < n; ++j) {
+    double* const column = A.data() + j * n;
+    column[j] = 1.0;
     for (int k = 0; k < m; ++k) {
-      const double gain = K[k * n + i];
-      for (int j = 0; j < n; ++j) {
-        row[j] -= gain * measured.H[k * n + j];
+      const double factor = measured.H[k * n + j];
+      for (int i = 0; factor != 0.0 && i < n; ++i) {
+        column[i] -= seen.K[static_cast<std::size_t>(k * n + i)] * factor;
       }
     }
   }
-  Entries KR;
-  Entries turned{};  // GCC 12 does not see that all that is read is written
-  Entries noise;
-  kernels::times_transposed<N>(K, seen.R.data(), KR.data(), n, m, m);
-  kernels::transpose(K, turned.data(), n, m);
-  kernels::times_transposed<N>(KR.data(), turned.data(), noise.data(), n, n, m);
-  kernels::congruence<N>(A.data(), state.P.data(), P, n);
-  for (std::size_t i = 0, all = static_cast<std::size_t>(n * n); i < all; ++i) {
-    P[i] += noise[i];
-  }
-  kernels::symmetrize<N>(P, n);
+  std::fill_n(P, n * n, 0.0);
+  add_gained_noise(seen, n, m, P);
+  kernels::add_congruence<N, kernels::Layout::kColumns>(A.data(), state.P.data(), P, n);
 }
 
-template <int N>
+template <int N, int M>
 FilterStatus update_sized(Gaussian& state, const LinearMeasurement& measured, double bound,
                           FilterUpdate& update) noexcept {
   const int n = kernels::size_of<N>(state.size());
-  const int m = measured.rows;
-  Innovation seen;
-  if (!see<N>(state, measured, seen)) {
+  const int m = kernels::size_of<M>(measured.rows);
+  if (n < 1 || m < 1) {
     return FilterStatus::kSingular;
   }
-  Entries K;
-  solve_gain(seen, K.data(), n, m);
-  note(seen, measured, K.data(), n, update);
-  update.accepted = false;
-  if (!std::isfinite(update.nis)) {
-    update.any = false;
-    return FilterStatus::kNotFinite;
+  Innovation<N, M> seen;
+  see(state, measured, seen);
+  if (!factor_innovation(seen, m)) {
+    return FilterStatus::kSingular;
   }
-  if (update.nis > bound) {
-    return FilterStatus::kRejected;
+  solve_gain(seen, n, m);
+  const FilterStatus seen_as = note_innovation(seen, measured.residual, bound, n, m, update);
+  if (seen_as != FilterStatus::kOk) {
+    return seen_as;
   }
-  Column x;
+  std::array<double, kRowsOf<N>> x;
   std::copy_n(state.x.data(), n, x.data());
-  for (int k = 0; k < m; ++k) {
-    for (int i = 0; i < n; ++i) {
-      x[static_cast<std::size_t>(i)] +=
-          K[static_cast<std::size_t>(k * n + i)] * measured.residual[k];
-    }
+  gained(seen, measured.residual, n, m, x.data());
+  EntriesOf<N> P;
+  if (!expanded_joseph(state, seen, m, P.data())) {
+    joseph(state, measured, seen, P.data());
   }
-  Entries P;
-  joseph<N>(state, measured, seen, K.data(), P.data());
   const FilterStatus status = commit<N>(state, x.data(), P.data());
   update.accepted = status == FilterStatus::kOk;
   return status;
@@ -229,8 +101,11 @@ FilterStatus predict_linear(Gaussian& state, const double* fx, const double* F,
 
 FilterStatus update_linear(Gaussian& state, const LinearMeasurement& measurement, double bound,
                            FilterUpdate& update) noexcept {
-  return kernels::with_size(
-      state.size(), [&]<int N>() { return update_sized<N>(state, measurement, bound, update); });
+  return kernels::with_size(state.size(), [&]<int N>() {
+    return kernels::with_rows(measurement.rows, [&]<int M>() {
+      return update_sized < N, N == 0 ? 0 : M > (state, measurement, bound, update);
+    });
+  });
 }
 
 }  // namespace thing_kin

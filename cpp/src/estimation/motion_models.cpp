@@ -47,13 +47,12 @@ class Polynomial final : public MotionModel {
   }
 
   void step(const double* x, double dt, double* out) const noexcept override {
+    const std::array<double, 3> factor{1.0, dt, 0.5 * dt * dt};
     for (int order = 0; order < orders_; ++order) {
       for (int axis = 0; axis < dimension_; ++axis) {
         double sum = x[order * dimension_ + axis];
-        double factor = 1.0;
         for (int k = order + 1; k < orders_; ++k) {
-          factor *= dt / (k - order);
-          sum += x[k * dimension_ + axis] * factor;
+          sum += x[k * dimension_ + axis] * factor[static_cast<std::size_t>(k - order)];
         }
         out[order * dimension_ + axis] = sum;
       }
@@ -163,43 +162,17 @@ class Omnidirectional final : public MotionModel {
   }
 
   void step(const double* x, double dt, double* out) const noexcept override {
-    const double c = std::cos(x[2]);
-    const double s = std::sin(x[2]);
-    const double along = x[3] * dt + 0.5 * x[6] * dt * dt;
-    const double across = x[4] * dt + 0.5 * x[7] * dt * dt;
-    out[0] = x[0] + c * along - s * across;
-    out[1] = x[1] + s * along + c * across;
-    out[2] = x[2] + x[5] * dt;
-    out[3] = x[3] + x[6] * dt;
-    out[4] = x[4] + x[7] * dt;
-    out[5] = x[5];
-    out[6] = x[6];
-    out[7] = x[7];
+    move(Way(x, dt), x, dt, out);
   }
 
   void jacobian(const double* x, double dt, double* F) const noexcept override {
-    const double c = std::cos(x[2]);
-    const double s = std::sin(x[2]);
-    const double along = x[3] * dt + 0.5 * x[6] * dt * dt;
-    const double across = x[4] * dt + 0.5 * x[7] * dt * dt;
-    std::fill_n(F, 64, 0.0);
-    for (int i = 0; i < 8; ++i) {
-      F[i * 9] = 1.0;
-    }
-    const double half = 0.5 * dt * dt;
-    F[2] = -s * along - c * across;
-    F[3] = c * dt;
-    F[4] = -s * dt;
-    F[6] = c * half;
-    F[7] = -s * half;
-    F[10] = c * along - s * across;
-    F[11] = s * dt;
-    F[12] = c * dt;
-    F[14] = s * half;
-    F[15] = c * half;
-    F[21] = dt;
-    F[30] = dt;
-    F[39] = dt;
+    differentiate(Way(x, dt), dt, F);
+  }
+
+  void linearize(const double* x, double dt, double* out, double* F) const noexcept override {
+    const Way way(x, dt);
+    differentiate(way, dt, F);
+    move(way, x, dt, out);
   }
 
   void noise(const double* /*x*/, double dt, double* Q) const noexcept override {
@@ -210,6 +183,50 @@ class Omnidirectional final : public MotionModel {
   }
 
  private:
+  // The way gone, in world axes, and the heading at its beginning.
+  struct Way {
+    Way(const double* x, double dt)
+        : c(std::cos(x[2])),
+          s(std::sin(x[2])),
+          along(x[3] * dt + 0.5 * x[6] * dt * dt),
+          across(x[4] * dt + 0.5 * x[7] * dt * dt),
+          dx(c * along - s * across),
+          dy(s * along + c * across) {}
+    double c, s, along, across, dx, dy;
+  };
+
+  static void move(const Way& way, const double* x, double dt, double* out) noexcept {
+    out[0] = x[0] + way.dx;
+    out[1] = x[1] + way.dy;
+    out[2] = x[2] + x[5] * dt;
+    out[3] = x[3] + x[6] * dt;
+    out[4] = x[4] + x[7] * dt;
+    out[5] = x[5];
+    out[6] = x[6];
+    out[7] = x[7];
+  }
+
+  static void differentiate(const Way& way, double dt, double* F) noexcept {
+    std::fill_n(F, 64, 0.0);
+    for (int i = 0; i < 8; ++i) {
+      F[i * 9] = 1.0;
+    }
+    const double half = 0.5 * dt * dt;
+    F[2] = -way.dy;
+    F[3] = way.c * dt;
+    F[4] = -way.s * dt;
+    F[6] = way.c * half;
+    F[7] = -way.s * half;
+    F[10] = way.dx;
+    F[11] = way.s * dt;
+    F[12] = way.c * dt;
+    F[14] = way.s * half;
+    F[15] = way.c * half;
+    F[21] = dt;
+    F[30] = dt;
+    F[39] = dt;
+  }
+
   Eigen::Matrix<double, 8, 1> noise_;
 };
 

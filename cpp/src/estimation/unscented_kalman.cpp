@@ -23,34 +23,6 @@ void check_points(const SigmaPoints& Y, Eigen::Index rows, int n, const char* na
   }
 }
 
-// A <- A + sum over the columns v of V: v v^T, both triangles
-void add_squares(const StateMatrix& V, double* A) noexcept {
-  const Eigen::Index m = V.rows();
-  for (Eigen::Index k = 0; k < V.cols(); ++k) {
-    const double* v = V.data() + k * m;
-    for (Eigen::Index j = 0; j < m; ++j) {
-      if (v[j] == 0.0) {
-        continue;
-      }
-      for (Eigen::Index i = 0; i < m; ++i) {
-        A[j * m + i] += v[i] * v[j];
-      }
-    }
-  }
-}
-
-// A <- A + the covariance that the slope does not explain
-void add_bend(const UnscentedTransform& made, double weight, double* A) noexcept {
-  add_squares(made.bend, A);
-  const Eigen::Index m = made.shift.size();
-  for (Eigen::Index j = 0; j < m; ++j) {
-    const double factor = weight * made.shift.data()[j];
-    for (Eigen::Index i = 0; i < m; ++i) {
-      A[j * m + i] += made.shift.data()[i] * factor;
-    }
-  }
-}
-
 }  // namespace
 
 UnscentedKalmanFilter::UnscentedKalmanFilter(const VectorView& x, const MatrixView& P,
@@ -91,107 +63,18 @@ bool UnscentedKalmanFilter::sigma_points(SigmaPoints& X) noexcept {
   }
   const int n = size();
   X.resize(n, 2 * n + 1);
-  double* points = X.data();
-  const double* x = state_.x.data();
-  std::copy_n(x, n, points);
-  for (int k = 0; k < n; ++k) {
-    const double* column = L_.data() + k * n;
-    double* const plus = points + (k + 1) * n;
-    double* const minus = points + (n + k + 1) * n;
-    for (int i = 0; i < n; ++i) {
-      const double way = scale_ * column[i];
-      plus[i] = x[i] + way;
-      minus[i] = x[i] - way;
-    }
-  }
-  return true;
-}
-
-void UnscentedKalmanFilter::transform(const SigmaPoints& Y, const AngleSet& angles,
-                                      UnscentedTransform& out) const {
-  const int n = size();
-  const int m = static_cast<int>(Y.rows());
-  const double* center = Y.data();
-  const double half = 0.5 / scale_;
-  out.slope.resize(m, n);
-  out.bend.resize(m, n);
-  out.shift.resize(m);
-  out.mean.resize(m);
-  std::array<double, static_cast<std::size_t>(kMaxState)> sum{};
-  std::array<double, static_cast<std::size_t>(kMaxState)> plus;
-  std::array<double, static_cast<std::size_t>(kMaxState)> minus;
-  for (int k = 0; k < n; ++k) {
-    angles.difference(center + (k + 1) * m, center, plus.data(), m);
-    angles.difference(center + (n + k + 1) * m, center, minus.data(), m);
-    for (int i = 0; i < m; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      out.slope.data()[k * m + i] = (plus[at] - minus[at]) * half;
-      const double bend = (plus[at] + minus[at]) * half;
-      out.bend.data()[k * m + i] = bend;
-      sum[at] += bend;
-    }
-  }
-  for (int i = 0; i < m; ++i) {
-    out.shift.data()[i] = sum[static_cast<std::size_t>(i)] / scale_;
-  }
-  angles.retract(center, out.shift.data(), out.mean.data(), m);
-}
-
-FilterStatus UnscentedKalmanFilter::predict_sums(const UnscentedTransform& moved,
-                                                 const double* Q) noexcept {
-  const int n = size();
-  StateMatrix noise = Eigen::Map<const StateMatrix>(Q, n, n);
-  add_bend(moved, downdate_weight(), noise.data());
-  ModelMatrix slope = moved.slope;
-  Gaussian whitened{moved.mean, StateMatrix::Identity(n, n), state_.angles};
-  const FilterStatus status =
-      predict_linear(whitened, moved.mean.data(), slope.data(), noise.data());
-  if (status == FilterStatus::kOk) {
-    state_.x = whitened.x;
-    state_.P = whitened.P;
-  }
-  return status;
-}
-
-FilterStatus UnscentedKalmanFilter::update_sums(const UnscentedTransform& seen,
-                                                const double* residual, const double* R,
-                                                double bound) noexcept {
-  const int n = size();
-  const auto m = static_cast<int>(seen.mean.size());
-  StateMatrix noise = Eigen::Map<const StateMatrix>(R, m, m);
-  add_bend(seen, downdate_weight(), noise.data());
-  const ModelMatrix slope = seen.slope;
-  Gaussian whitened{StateVector::Zero(n), StateMatrix::Identity(n, n), {}};
-  const LinearMeasurement measured{m, residual, slope.data(), noise.data()};
-  FilterStatus status = update_linear(whitened, measured, bound, last_);
-  // Back: K = L K', x = x + L x', P = L P' L^T.
-  const ModelMatrix root = L_;
-  if (last_.any && status != FilterStatus::kSingular) {
-    const StateMatrix gain = last_.K;
-    last_.K.noalias() = L_.lazyProduct(gain);
-  }
-  if (status != FilterStatus::kOk) {
-    return status;
-  }
-  StateMatrix P(n, n);
   kernels::with_size(n, [&]<int N>() {
-    kernels::congruence<N>(root.data(), whitened.P.data(), P.data(), n);
-    kernels::symmetrize<N>(P.data(), n);
+    const int rows = kernels::size_of<N>(n);
+    const kernels::Strip<N> x = kernels::strip<N>(state_.x.data(), rows);
+    double* const points = X.data();
+    kernels::put<N>(x, points);
+    for (int k = 0; k < rows; ++k) {
+      const kernels::Strip<N> way = kernels::strip<N>(L_.data() + k * rows, rows) * scale_;
+      kernels::put<N>(x + way, points + (k + 1) * rows);
+      kernels::put<N>(x - way, points + (rows + k + 1) * rows);
+    }
   });
-  const StateVector step = L_.lazyProduct(whitened.x);
-  StateVector x(n);
-  state_.angles.retract(state_.x.data(), step.data(), x.data(), n);
-  if (!x.allFinite()) {
-    status = FilterStatus::kNotFinite;
-  } else if (!kernels::keep_positive<0>(P.data(), n, kMostInflation)) {
-    status = FilterStatus::kNotPositive;
-  } else {
-    state_.x = x;
-    state_.P = P;
-    factored_ = false;
-  }
-  last_.accepted = status == FilterStatus::kOk;
-  return status;
+  return true;
 }
 
 // x' = F x + noise with F L = slope: what a smoother needs of a nonlinear prediction.
@@ -202,7 +85,7 @@ void UnscentedKalmanFilter::note_slope(const UnscentedTransform& moved, const St
   }
   const int n = size();
   StateMatrix noise = Eigen::Map<const StateMatrix>(Q, n, n);
-  add_bend(moved, downdate_weight(), noise.data());
+  linearized_noise(moved, noise);
   StateMatrix F = moved.slope;
   for (int k = n - 1; k >= 0; --k) {
     for (int j = k + 1; j < n; ++j) {
@@ -219,9 +102,11 @@ FilterStatus UnscentedKalmanFilter::predict(const SigmaPoints& Y, const StateMat
   check_points(Y, n, n, "f(x)");
   check_square(Q, n, "Q");
   const double* noise = known_Q_(Q.data(), n, "Q");
-  if (!factor()) {
-    return done(FilterStatus::kNotPositive);
-  }
+  return factor() ? predict_moved(Y, noise) : done(FilterStatus::kNotPositive);
+}
+
+FilterStatus UnscentedKalmanFilter::predict_moved(const SigmaPoints& Y,
+                                                  const double* noise) noexcept {
   UnscentedTransform moved;
   transform(Y, state_.angles, moved);
   const StateMatrix drawn_with = transition_ != nullptr ? L_ : StateMatrix();
@@ -235,14 +120,18 @@ FilterStatus UnscentedKalmanFilter::predict(const MotionModel& model, double dt,
                                             const StateMatrix* Q) {
   const int n = size();
   check_model(model, dt, n, state_.angles);
+  StateMatrix own;
+  const double* noise = own.data();
+  if (Q != nullptr) {
+    check_square(*Q, n, "Q");
+    noise = known_Q_(Q->data(), n, "Q");
+  } else {
+    own.resize(n, n);
+    model.noise(state_.x.data(), dt, own.data());
+  }
   SigmaPoints X;
   if (!sigma_points(X)) {
     return done(FilterStatus::kNotPositive);
-  }
-  StateMatrix own;
-  if (Q == nullptr) {
-    own.resize(n, n);
-    model.noise(state_.x.data(), dt, own.data());
   }
   for (int k = 0; k <= 2 * n; ++k) {
     model.step(X.data() + k * n, dt, X.data() + k * n);
@@ -250,7 +139,7 @@ FilterStatus UnscentedKalmanFilter::predict(const MotionModel& model, double dt,
   if (!all_finite(X.data(), static_cast<std::size_t>(X.size()))) {
     return done(FilterStatus::kNotFinite);
   }
-  return predict(X, Q != nullptr ? *Q : own);
+  return predict_moved(X, noise);
 }
 
 FilterStatus UnscentedKalmanFilter::update(const StateVector& z, const SigmaPoints& Z,
@@ -261,13 +150,18 @@ FilterStatus UnscentedKalmanFilter::update(const StateVector& z, const SigmaPoin
   check_square(R, m, "R");
   const double* noise = known_R_(R.data(), m, "R");
   const double bound = gate_bound_(options.gate, m);
-  if (!factor()) {
-    return done(FilterStatus::kNotPositive);
-  }
+  return factor() ? update_seen(z, Z, noise, bound, options.angles)
+                  : done(FilterStatus::kNotPositive);
+}
+
+FilterStatus UnscentedKalmanFilter::update_seen(const StateVector& z, const SigmaPoints& Z,
+                                                const double* noise, double bound,
+                                                const AngleSet& angles) noexcept {
+  const auto m = static_cast<int>(z.size());
   UnscentedTransform seen;
-  transform(Z, options.angles, seen);
+  transform(Z, angles, seen);
   StateVector residual(m);
-  options.angles.difference(z.data(), seen.mean.data(), residual.data(), m);
+  angles.difference(z.data(), seen.mean.data(), residual.data(), m);
   return done(options_.square_root ? update_root(seen, residual.data(), noise, bound)
                                    : update_sums(seen, residual.data(), noise, bound));
 }
@@ -276,6 +170,9 @@ FilterStatus UnscentedKalmanFilter::update(const StateVector& z, const Measureme
                                            const StateMatrix& R, double gate) {
   const int n = size();
   check_model(model, z, n);
+  check_square(R, model.rows(), "R");
+  const double* noise = known_R_(R.data(), model.rows(), "R");
+  const double bound = gate_bound_(gate, model.rows());
   SigmaPoints X;
   if (!sigma_points(X)) {
     return done(FilterStatus::kNotPositive);
@@ -287,7 +184,7 @@ FilterStatus UnscentedKalmanFilter::update(const StateVector& z, const Measureme
   if (!all_finite(Z.data(), static_cast<std::size_t>(Z.size()))) {
     return done(FilterStatus::kNotFinite);
   }
-  return update(z, Z, R, {gate, model.angles()});
+  return update_seen(z, Z, noise, bound, model.angles());
 }
 
 }  // namespace thing_kin

@@ -17,6 +17,9 @@ Eigen::Vector2d turned(double a, double b, const Eigen::Vector2d& v) {
 }  // namespace
 
 double wrap_angle(double angle) {
+  if (angle > -std::numbers::pi && angle <= std::numbers::pi) {
+    return angle;  // as below, without a division
+  }
   const double wrapped = std::remainder(angle, 2.0 * std::numbers::pi);
   return wrapped <= -std::numbers::pi ? wrapped + 2.0 * std::numbers::pi : wrapped;
 }

@@ -44,6 +44,10 @@ void check_symmetric(const MatrixView& A, const std::string& name) {
   }
 }
 
+bool positive_by_size(const double* A, int n) noexcept {
+  return kernels::with_size(n, [&]<int N>() { return kernels::is_positive<N>(A, n); });
+}
+
 }  // namespace
 
 void check_covariance(const MatrixView& A, Eigen::Index n, const std::string& name) {
@@ -58,7 +62,8 @@ void check_covariance(const MatrixView& A, Eigen::Index n, const std::string& na
   copy_columns(A, copy.data());
   const int size = static_cast<int>(n);
   kernels::symmetrize<0>(copy.data(), size);
-  if (!kernels::keep_positive<0>(copy.data(), size, kCovarianceTolerance)) {
+  if (!positive_by_size(copy.data(), size) &&
+      !kernels::keep_positive<0>(copy.data(), size, kCovarianceTolerance)) {
     throw InvalidArgument(name, "a matrix with a negative eigenvalue",
                           "a symmetric matrix, positive semidefinite");
   }
@@ -75,7 +80,7 @@ void symmetrize(MatrixSpan A) noexcept {
 bool is_positive(const MatrixView& A) noexcept {
   kernels::Scratch copy;
   copy_columns(A, copy.data());
-  return kernels::is_positive<0>(copy.data(), static_cast<int>(A.rows()));
+  return positive_by_size(copy.data(), static_cast<int>(A.rows()));
 }
 
 // A view is passed by value.
@@ -83,6 +88,9 @@ bool is_positive(const MatrixView& A) noexcept {
 bool keep_positive(MatrixSpan A, double most) noexcept {
   kernels::Scratch copy;
   copy_columns(A, copy.data());
+  if (positive_by_size(copy.data(), static_cast<int>(A.rows()))) {
+    return true;
+  }
   const bool kept = kernels::keep_positive<0>(copy.data(), static_cast<int>(A.rows()), most);
   if (kept) {
     write_columns(copy.data(), A);
@@ -95,6 +103,9 @@ bool keep_positive(MatrixSpan A, const VectorView& sizes) noexcept {
   const auto n = static_cast<int>(A.rows());
   kernels::Scratch copy;
   copy_columns(A, copy.data());
+  if (positive_by_size(copy.data(), n)) {
+    return true;
+  }
   double fraction = 16.0 * n * kEpsilon;
   // Entries are at most the geometric mean of two sizes: n of them outweigh all others in a row.
   while (!kernels::is_positive<0>(copy.data(), n)) {

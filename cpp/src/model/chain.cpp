@@ -143,12 +143,13 @@ void Chain::collect_joints() {
 }
 
 int Chain::frame_index(const std::string& name, const std::string& argument) const {
+  const auto found = std::ranges::find(frames_, name, &Frame::name);
+  if (found != frames_.end()) {
+    return static_cast<int>(found - frames_.begin());
+  }
   std::string known;
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
-    if (frames_[i].name == name) {
-      return static_cast<int>(i);
-    }
-    known.append(i == 0 ? "" : ", ").append(quoted(frames_[i].name));
+  for (const auto& frame : frames_) {
+    known.append(known.empty() ? "" : ", ").append(quoted(frame.name));
   }
   throw InvalidArgument(argument, quoted(name), "one of " + known);
 }

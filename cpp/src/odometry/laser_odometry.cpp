@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <initializer_list>
+#include <limits>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -22,10 +22,19 @@ using Eigen::Vector3d;
 constexpr double kGuessOffset = 0.02;
 constexpr double kGuessRate = 2.0;
 constexpr double kGuessMost = 0.2;
-constexpr double kTurnOffset = 0.1;
-constexpr double kTurnRate = 30.0;
+constexpr double kTurnMost = 1.0;
+constexpr double kTurnOffset = 0.05;
+constexpr double kTurnRate = 4.0;
+// Velocities change towards zero, on the mean.
+constexpr double kPersistence = 0.9;
+// s: so long a velocity is held, or twice the time between the scans that showed it.
+constexpr double kHold = 0.5;
+// A velocity that was assumed, not measured, costs a fit no more fitness than this.
+constexpr double kMostPenalty = 0.5;
 // A pose that was held moves if it is off by more than this quantile (chi square, 3 dof, 95 %).
 constexpr double kStillBound = 7.815;
+// Starts closer than this, in m and rad, lead to the same fit.
+constexpr double kSameStart = 0.04;
 // Less of a scan's points on the map than this: it shows what the map doesn't know.
 constexpr double kWellKnown = 0.7;
 // Of a scan that moved, in s and in m or rad: once more if the guess of its own motion was worse.
@@ -80,16 +89,18 @@ PlanarEstimate LaserOdometry::guess_motion(double dt,
     return *motion;
   }
   const double sd = std::min(kGuessOffset + kGuessRate * dt, kGuessMost);
-  const double turn = std::min(kTurnOffset + kTurnRate * dt, std::numbers::pi);
-  // Over a gap a velocity says little: it is held for half a second at most.
-  return {.pose = se2_exp(twist_ * std::min(dt, 0.5)),
+  const double turn = std::min(kTurnOffset + kTurnRate * dt, kTurnMost);
+  // Over a gap a velocity says little.
+  return {.pose = se2_exp(kPersistence * twist_ * std::min(dt, std::max(kHold, 2.0 * dt_))),
           .covariance = Vector3d(sd * sd, sd * sd, turn * turn).asDiagonal()};
 }
 
-ScanMatch LaserOdometry::match(const PlanarEstimate& guess, bool guided) const {
+ScanMatch LaserOdometry::match(const MatchGuess& guess, bool guided) const {
+  // Without wheels the robot may also have stopped, which is no other start if it hardly moved.
   const std::array<Pose2, 1> standing{pose_};
+  const bool apart = !guided && (guess.pose - pose_).cwiseAbs().maxCoeff() > kSameStart;
   return match_scan(map_, scan_, guess,
-                    guided ? std::span<const Pose2>{} : std::span<const Pose2>{standing},
+                    apart ? std::span<const Pose2>{standing} : std::span<const Pose2>{},
                     scanner_.noise, options_.match);
 }
 
@@ -144,15 +155,19 @@ LaserStep LaserOdometry::add(std::span<const double> ranges, double t,
     const Pose2 guessed = compose(pose_, moved.pose);
     by_pose(0, 2) = -(guessed - pose_).y();
     by_pose(1, 2) = (guessed - pose_).x();
-    const PlanarEstimate guess{.pose = guessed,
-                               .covariance = by_pose * noise_ * by_pose.transpose() + spread};
+    const MatchGuess guess{
+        .pose = guessed,
+        .covariance = by_pose * noise_ * by_pose.transpose() + spread,
+        .most_penalty = motion ? std::numeric_limits<double>::infinity() : kMostPenalty};
     ScanMatch match = this->match(guess, motion.has_value());
     const Twist2 seen = se2_log(between(pose_, match.pose)) / dt;
     if (scanner_.scan_time > 0.0 &&
         ((seen - twist) * scanner_.scan_time).cwiseAbs().maxCoeff() > kSkew &&
         match.status == MatchStatus::kConverged) {
       read_scan(scanner_, ranges, seen, scan_);
-      match = this->match({.pose = match.pose, .covariance = guess.covariance}, true);
+      match = this->match(
+          {.pose = match.pose, .covariance = guess.covariance, .most_penalty = guess.most_penalty},
+          true);
     }
     step.match = match;
     const bool found =
@@ -176,6 +191,7 @@ LaserStep LaserOdometry::add(std::span<const double> ranges, double t,
     twist_ = found ? Twist2(se2_log(step.motion) / dt) : twist_;
   }
   t_ = t;
+  dt_ = dt;
   way_ += step.motion.head<2>().norm();
   step.pose = pose_;
   if (step.status == LaserStatus::kLost) {

@@ -55,7 +55,7 @@ void LocalMap::enlist(std::int32_t surfel) {
   const std::int32_t y = cell_of(p.y());
   Cell& cell = cells_[entry_of(x, y)];
   used_ += cell.first < 0 ? 1 : 0;
-  next_[static_cast<std::size_t>(surfel)] = cell.first;
+  entries_[static_cast<std::size_t>(surfel)].next = cell.first;
   cell = {.x = x, .y = y, .first = surfel};
 }
 
@@ -67,7 +67,10 @@ void LocalMap::rehash() {
   }
   cells_.assign(size, Cell{.x = 0, .y = 0, .first = -1});
   used_ = 0;
-  next_.assign(surfels_.size(), -1);
+  entries_.clear();
+  for (const Surfel& surfel : surfels_) {
+    entries_.push_back({.p = surfel.p, .normal = surfel.normal, .next = -1});
+  }
   for (std::size_t k = 0; k < surfels_.size(); ++k) {
     enlist(static_cast<std::int32_t>(k));
   }
@@ -83,9 +86,10 @@ void LocalMap::visit_near(const Vector2d& p, double distance, Visit&& visit) con
   const std::int32_t y_last = cell_of(p.y() + distance);
   for (std::int32_t x = cell_of(p.x() - distance); x <= x_last; ++x) {
     for (std::int32_t y = y_first; y <= y_last; ++y) {
-      for (std::int32_t k = first_of(x, y); k >= 0; k = next_[static_cast<std::size_t>(k)]) {
-        const Surfel& surfel = surfels_[static_cast<std::size_t>(k)];
-        visit(k, surfel, (surfel.p - p).squaredNorm());
+      for (std::int32_t k = first_of(x, y); k >= 0;) {
+        const Entry& entry = entries_[static_cast<std::size_t>(k)];
+        visit(k, entry, (entry.p - p).squaredNorm());
+        k = entry.next;
       }
     }
   }
@@ -95,9 +99,9 @@ std::int32_t LocalMap::mergeable(const Vector2d& p, const Vector2d& normal) cons
   const bool surface = !normal.isZero(0.0);
   std::int32_t found = -1;
   double least = kMergeDistance * kMergeDistance;
-  visit_near(p, kMergeDistance, [&](std::int32_t k, const Surfel& surfel, double distance2) {
-    if (distance2 < least && surfel.is_surface() == surface &&
-        (!surface || surfel.normal.dot(normal) >= kSameSurface)) {
+  visit_near(p, kMergeDistance, [&](std::int32_t k, const Entry& entry, double distance2) {
+    if (distance2 < least && entry.is_surface() == surface &&
+        (!surface || entry.normal.dot(normal) >= kSameSurface)) {
       least = distance2;
       found = k;
     }
@@ -121,7 +125,7 @@ void LocalMap::insert(const PlanarScan& scan, const Pose2& pose, double clock) {
                           .seen = clock,
                           .line_p = p,
                           .line_normal = normal});
-      next_.push_back(-1);
+      entries_.push_back({.p = p, .normal = normal, .next = -1});
       enlist(static_cast<std::int32_t>(surfels_.size()) - 1);
       changed_.push_back(static_cast<std::int32_t>(surfels_.size()) - 1);
       continue;
@@ -135,6 +139,8 @@ void LocalMap::insert(const PlanarScan& scan, const Pose2& pose, double clock) {
     }
     surfel.weight = weight + 1.0;
     surfel.seen = clock;
+    entries_[static_cast<std::size_t>(known)].p = surfel.p;
+    entries_[static_cast<std::size_t>(known)].normal = surfel.normal;
     changed_.push_back(known);
   }
   draw_lines();
@@ -145,7 +151,7 @@ void LocalMap::draw_lines() {
   stale_.assign(surfels_.size(), 0);
   for (const std::int32_t k : changed_) {
     const Vector2d p = surfels_[static_cast<std::size_t>(k)].p;
-    visit_near(p, kLineRadius, [&](std::int32_t other, const Surfel&, double) {
+    visit_near(p, kLineRadius, [&](std::int32_t other, const Entry&, double) {
       stale_[static_cast<std::size_t>(other)] = 1;
     });
   }
@@ -168,7 +174,7 @@ void LocalMap::forget(const Vector2d& center, double radius, double oldest) {
 
 void LocalMap::clear() noexcept {
   surfels_.clear();
-  next_.clear();
+  entries_.clear();
   std::ranges::fill(cells_, Cell{.x = 0, .y = 0, .first = -1});
   used_ = 0;
 }
@@ -182,10 +188,11 @@ void LocalMap::draw_line(Surfel& surfel) const noexcept {
   Vector2d p = Vector2d::Zero();
   Vector2d normal = Vector2d::Zero();
   double total = 0.0;
-  visit_near(surfel.p, kLineRadius, [&](std::int32_t, const Surfel& other, double distance2) {
+  visit_near(surfel.p, kLineRadius, [&](std::int32_t k, const Entry& other, double distance2) {
     const double u = 1.0 - distance2 / (kLineRadius * kLineRadius);
     if (u > 0.0 && other.is_surface() && other.normal.dot(surfel.normal) >= kSameLine) {
-      const double weight = u * u * std::min(other.weight, kMostShare);
+      const double weight =
+          u * u * std::min(surfels_[static_cast<std::size_t>(k)].weight, kMostShare);
       p += weight * other.p;
       normal += weight * other.normal;
       total += weight;
@@ -200,16 +207,16 @@ void LocalMap::draw_line(Surfel& surfel) const noexcept {
 const Surfel* LocalMap::nearest(const Vector2d& p, const Vector2d& normal,
                                 double distance) const noexcept {
   const bool surface = !normal.isZero(0.0);
-  const Surfel* found = nullptr;
+  std::int32_t found = -1;
   double least = distance * distance;
-  visit_near(p, distance, [&](std::int32_t, const Surfel& surfel, double distance2) {
+  visit_near(p, distance, [&](std::int32_t k, const Entry& entry, double distance2) {
     if (distance2 < least &&
-        (!surface || (surfel.is_surface() && surfel.normal.dot(normal) >= kSameSide))) {
+        (!surface || (entry.is_surface() && entry.normal.dot(normal) >= kSameSide))) {
       least = distance2;
-      found = &surfel;
+      found = k;
     }
   });
-  return found;
+  return found < 0 ? nullptr : &surfels_[static_cast<std::size_t>(found)];
 }
 
 }  // namespace thing_kin

@@ -3,20 +3,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "thing_kin/core/error.hpp"
 
 namespace thing_kin {
 
 namespace {
 
-using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-// Neighbors that make a line lie within this radius, in m, or within so many steps of the beams.
+// Neighbors that make a line lie within a radius, in m, that the noise asks for, at most so much;
+// or within so many steps of the beams.
 constexpr double kNormalRadius = 0.3;
 constexpr double kNormalSteps = 5.0;
-// At most so many to each side, so that dense scans cost no more.
-constexpr int kNormalReach = 8;
+// One standard deviation, in rad, that noise may turn a normal by.
+constexpr double kNormalNoise = 0.025;
+// At most so many to each side.
+constexpr int kNormalReach = 64;
 // Neighbors further apart than this, in m, or than so many steps of the beams, are not of one
 // surface.
 constexpr double kGap = 0.12;
@@ -38,15 +42,23 @@ bool connected(const ScanPoint& a, const ScanPoint& b, double range, double step
   return std::abs(a.beam - b.beam) <= 2 && (a.p - b.p).squaredNorm() <= gap * gap;
 }
 
+// Of a window to each side in which points as far apart as `spacing` give a line its direction as
+// well as kNormalNoise says: sigma sqrt(3 / n) / radius, n = 2 radius / spacing.
+double normal_radius(double noise, double spacing) {
+  const double ratio = noise * std::numbers::sqrt3 / kNormalNoise;
+  const double asked = std::cbrt(ratio * ratio * 0.5 * spacing);
+  return std::max(std::min(asked, kNormalRadius), kNormalSteps * spacing);
+}
+
 struct Neighbors {
   std::size_t first;
   std::size_t last;
 };
 
 Neighbors neighbors_of(const PlanarScan& scan, std::span<const double> ranges, std::size_t i,
-                       double step) {
+                       double step, double noise) {
   const auto range = [&](std::size_t k) { return ranges[static_cast<std::size_t>(scan[k].beam)]; };
-  const double radius = std::max(kNormalRadius, kNormalSteps * step * range(i));
+  const double radius = normal_radius(noise, step * range(i));
   const auto belongs = [&](std::size_t k, std::size_t to) {
     return connected(scan[k], scan[to], std::max(range(k), range(to)), step) &&
            (scan[k].p - scan[i].p).squaredNorm() < radius * radius;
@@ -64,21 +76,36 @@ Neighbors neighbors_of(const PlanarScan& scan, std::span<const double> ranges, s
   return found;
 }
 
-// The direction across the points, and the variance of the points in it.
-double fit_across(std::span<const ScanPoint> points, Vector2d& across) {
-  Vector2d mean = Vector2d::Zero();
-  for (const ScanPoint& point : points) {
-    mean += point.p;
+// Sums over the points up to one, from a first one: of any row of neighbors by a difference.
+struct Sums {
+  double n = 0.0;
+  Vector2d p = Vector2d::Zero();
+  double xx = 0.0;
+  double xy = 0.0;
+  double yy = 0.0;
+
+  void add(const Vector2d& q) {
+    n += 1.0;
+    p += q;
+    xx += q.x() * q.x();
+    xy += q.x() * q.y();
+    yy += q.y() * q.y();
   }
-  mean /= static_cast<double>(points.size());
-  Matrix2d spread = Matrix2d::Zero();
-  for (const ScanPoint& point : points) {
-    const Vector2d d = point.p - mean;
-    spread += d * d.transpose();
-  }
-  const double along = 0.5 * std::atan2(2.0 * spread(0, 1), spread(0, 0) - spread(1, 1));
-  across = {-std::sin(along), std::cos(along)};
-  return across.dot(spread * across) / static_cast<double>(points.size());
+};
+
+// The direction across the points between two sums, and the variance of the points in it.
+double fit_across(const Sums& first, const Sums& last, Vector2d& across) {
+  const double n = last.n - first.n;
+  const Vector2d mean = (last.p - first.p) / n;
+  const double xx = (last.xx - first.xx) / n - mean.x() * mean.x();
+  const double xy = (last.xy - first.xy) / n - mean.x() * mean.y();
+  const double yy = (last.yy - first.yy) / n - mean.y() * mean.y();
+  const double half = 0.5 * (xx - yy);
+  const double root = std::sqrt(half * half + xy * xy);
+  // Along the points, from whichever column of C - lambda_min I is longer.
+  const Vector2d along = half > 0.0 ? Vector2d(half + root, xy) : Vector2d(xy, root - half);
+  across = Vector2d(-along.y(), along.x()).normalized();
+  return std::max(0.5 * (xx + yy) - root, 0.0);
 }
 
 // Both sides are further away: the beams of this thing fell on nothing else.
@@ -124,31 +151,38 @@ void read_scan(const Scanner& scanner, std::span<const double> ranges, const Twi
   out.clear();
   const double farthest = std::min(scanner.range_max, kMostRange);
   const double duration = scanner.n > 1 ? scanner.scan_time / (scanner.n - 1) : 0.0;
-  const bool moves = duration > 0.0 && !twist.isZero(0.0);
+  // From beam to beam the scanner moves by the same small motion, and the beam turns by more.
+  const Pose2 motion = se2_exp(twist * duration);
+  const Eigen::Matrix2d moved = Eigen::Rotation2Dd(motion.z()).toRotationMatrix();
+  const Eigen::Matrix2d turned =
+      Eigen::Rotation2Dd(motion.z() + scanner.increment()).toRotationMatrix();
+  const double first = scanner.mount.z() + scanner.angle_min;
+  Vector2d origin = scanner.mount.head<2>();
+  Vector2d direction(std::cos(first), std::sin(first));
   for (int beam = 0; beam < scanner.n; ++beam) {
     const double range = ranges[static_cast<std::size_t>(beam)];
-    if (!(range > 0.0 && range >= scanner.range_min && range < farthest)) {
-      continue;
+    if (range > 0.0 && range >= scanner.range_min && range < farthest) {
+      // The normal holds the beam's direction until it is known.
+      out.push_back({.p = origin + range * direction, .normal = direction, .beam = beam});
     }
-    Pose2 laser = scanner.mount;
-    if (moves) {
-      laser = compose(se2_exp(twist * (duration * beam)), laser);
-    }
-    const double angle = laser.z() + scanner.angle(beam);
-    const Vector2d direction(std::cos(angle), std::sin(angle));
-    // The normal holds the beam's direction until it is known.
-    out.push_back({.p = laser.head<2>() + range * direction, .normal = direction, .beam = beam});
+    origin = (moved * origin + motion.head<2>()).eval();
+    direction = (turned * direction).eval();
+  }
+  std::vector<Sums> sums(out.size() + 1);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    sums[i + 1] = sums[i];
+    sums[i + 1].add(out[i].p - out[0].p);
   }
   const double step = std::abs(scanner.increment());
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const Neighbors near = neighbors_of(out, ranges, i, step);
+    const Neighbors near = neighbors_of(out, ranges, i, step, scanner.noise);
     const std::size_t count = near.last - near.first + 1;
     ScanPoint& point = out[i];
     Vector2d across = Vector2d::Zero();
     if (count < 3) {
       point.surroundings =
           stands_alone(out, ranges, near) ? Surroundings::kCorner : Surroundings::kSparse;
-    } else if (fit_across({&out[near.first], count}, across) > kFlatness * kFlatness) {
+    } else if (fit_across(sums[near.first], sums[near.last + 1], across) > kFlatness * kFlatness) {
       point.surroundings = Surroundings::kCorner;
       across.setZero();
     } else {

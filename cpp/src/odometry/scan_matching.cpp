@@ -33,8 +33,8 @@ constexpr double kPlaceScale = 2.0 * kScale;
 constexpr double kPull = 0.25;
 // A step below this (m, rad) ends the iteration.
 constexpr double kMatchStep = 1e-5;
-// Fitness that a start loses for each squared deviation from the guess; deviations have a floor, so
-// that no guess forbids what the scans show. m and rad.
+// Fitness that a start loses for each squared deviation from the guess; deviations have a floor, m
+// and rad.
 constexpr double kPenalty = 0.012;
 constexpr double kFloor = 0.05;
 constexpr double kFloorTurn = 0.1;
@@ -152,7 +152,7 @@ struct Fit {
 
 class Matcher {
  public:
-  Matcher(const LocalMap& map, const PlanarScan& scan, const PlanarEstimate& guess,
+  Matcher(const LocalMap& map, const PlanarScan& scan, const MatchGuess& guess,
           const MatchOptions& options)
       : map_(map), scan_(scan), guess_(guess), options_(options) {
     Matrix3d P = guess.covariance;
@@ -197,7 +197,8 @@ class Matcher {
       fit.converged = last && step.norm() < kMatchStep;
     }
     const Pose2 off = pose_difference(fit.pose, guess_.pose);
-    fit.merit = fitness(fit.normal) - kPenalty * off.dot(distrust_ * off);
+    const double asked = kPenalty * off.dot(distrust_ * off);
+    fit.merit = fitness(fit.normal) - asked / (1.0 + asked / guess_.most_penalty);
     return fit;
   }
 
@@ -213,7 +214,7 @@ class Matcher {
  private:
   const LocalMap& map_;
   const PlanarScan& scan_;
-  const PlanarEstimate& guess_;
+  const MatchGuess& guess_;
   const MatchOptions& options_;
   Matrix3d distrust_;
   double first_distance_ = kFirstDistance;
@@ -270,7 +271,7 @@ void write_covariance(const Matrix3d& B, const Directions& told, const Matrix3d&
   match.scan_covariance = in_units(P_scan);
 }
 
-ScanMatch without_match(const PlanarEstimate& guess, MatchStatus status) {
+ScanMatch without_match(const MatchGuess& guess, MatchStatus status) {
   ScanMatch match;
   match.pose = guess.pose;
   match.covariance = guess.covariance;
@@ -311,7 +312,7 @@ void check_match_options(const MatchOptions& options) {
   }
 }
 
-ScanMatch match_scan(const LocalMap& map, const PlanarScan& whole, const PlanarEstimate& guess,
+ScanMatch match_scan(const LocalMap& map, const PlanarScan& whole, const MatchGuess& guess,
                      std::span<const Pose2> starts, double noise, const MatchOptions& options) {
   const PlanarScan scan = thinned_scan(whole, options.max_points);
   if (scan.size() < 3 || map.surfels().empty()) {
@@ -335,7 +336,7 @@ ScanMatch match_scan(const LocalMap& map, const PlanarScan& whole, const PlanarE
     const Vector3d sd = guess.covariance.diagonal().cwiseSqrt();
     const SearchWindow window{.center = guess.pose,
                               .translation = std::clamp(3.0 * sd.head<2>().maxCoeff(), 0.6, 2.0),
-                              .rotation = std::min(3.0 * sd.z() + 0.3, std::numbers::pi)};
+                              .rotation = std::min(6.0 * sd.z() + 0.3, std::numbers::pi)};
     for (const SearchCandidate& candidate : correlative_search(map, whole, window, kCandidates)) {
       consider(candidate.pose, kBetter);
     }

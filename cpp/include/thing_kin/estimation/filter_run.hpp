@@ -54,9 +54,11 @@ void run_record(Filter& filter, const double* record, Eigen::Index count, int m,
     filter.record_transitions(&transition);
   }
   for (Eigen::Index i = 0; i < count; ++i) {
-    transition.F.setIdentity(n, n);
-    transition.Q.setZero(n, n);
-    transition.x = filter.x();
+    if (smooth) {  // a prediction that fails is none
+      transition.F.setIdentity(n, n);
+      transition.Q.setZero(n, n);
+      transition.x = filter.x();
+    }
     FilterStatus status = predict(i);
     if (smooth) {
       transitions->store(i, transition);

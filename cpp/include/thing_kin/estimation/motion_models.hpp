@@ -27,6 +27,11 @@ class MotionModel {
   virtual void step(const double* x, double dt, double* out) const noexcept = 0;
   virtual void jacobian(const double* x, double dt, double* F) const noexcept = 0;
   virtual void noise(const double* x, double dt, double* Q) const noexcept = 0;
+  /// Both: what they share is computed once.
+  virtual void linearize(const double* x, double dt, double* out, double* F) const noexcept {
+    step(x, dt, out);
+    jacobian(x, dt, F);
+  }
 
  protected:
   MotionModel(std::string name, std::vector<std::string> variables, const AngleSet& angles = {});

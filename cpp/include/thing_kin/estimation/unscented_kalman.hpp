@@ -65,7 +65,11 @@ class UnscentedKalmanFilter : public GaussianFilter {
                       double gate = 1.0);
 
  private:
-  void transform(const SigmaPoints& Y, const AngleSet& angles, UnscentedTransform& out) const;
+  void transform(const SigmaPoints& Y, const AngleSet& angles,
+                 UnscentedTransform& out) const noexcept;
+  FilterStatus predict_moved(const SigmaPoints& Y, const double* noise) noexcept;
+  FilterStatus update_seen(const StateVector& z, const SigmaPoints& Z, const double* noise,
+                           double bound, const AngleSet& angles) noexcept;
   bool factor() noexcept;
   FilterStatus predict_sums(const UnscentedTransform& moved, const double* Q) noexcept;
   FilterStatus predict_root(const UnscentedTransform& moved, const double* Q) noexcept;
@@ -73,6 +77,7 @@ class UnscentedKalmanFilter : public GaussianFilter {
                            double bound) noexcept;
   FilterStatus update_root(const UnscentedTransform& seen, const double* residual, const double* R,
                            double bound) noexcept;
+  void linearized_noise(const UnscentedTransform& moved, StateMatrix& noise) const noexcept;
   void note_slope(const UnscentedTransform& moved, const StateMatrix& L, const double* Q) noexcept;
   double downdate_weight() const noexcept {
     return options_.beta - options_.alpha * options_.alpha;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "thing_kin/odometry/planar_motion.hpp"
 #include "thing_kin/odometry/scan_matching.hpp"
 
 namespace thing_kin {
@@ -18,7 +19,7 @@ enum class LaserStatus : std::uint8_t {
 struct LaserOdometryOptions {
   double keyframe_distance = 0.15;  ///< m; a scan goes into the map after so much motion
   double keyframe_angle = 0.3;      ///< rad
-  double memory = 20.0;             ///< m of way, after which what was not seen is forgotten
+  double memory = 30.0;             ///< m of way, after which what was not seen is forgotten
   double radius = 30.0;             ///< m around the robot; what is further is forgotten
   double still_distance = 0.005;    ///< m; within it and its own noise no motion is seen
   double still_angle = 0.005;       ///< rad
@@ -60,7 +61,7 @@ class LaserOdometry {
 
  private:
   PlanarEstimate guess_motion(double dt, const std::optional<PlanarEstimate>& motion) const;
-  ScanMatch match(const PlanarEstimate& guess, bool guided) const;
+  ScanMatch match(const MatchGuess& guess, bool guided) const;
   bool seems_still(const ScanMatch& match) const;
   void keep(LaserStep& step);
 
@@ -74,6 +75,7 @@ class LaserOdometry {
   Twist2 twist_ = Twist2::Zero();
   Pose2 keyframe_ = Pose2::Zero();
   std::optional<double> t_;
+  double dt_ = 0.0;  ///< between the last two scans
   double way_ = 0.0;
   int lost_ = 0;
 };

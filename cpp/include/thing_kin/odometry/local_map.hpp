@@ -61,9 +61,17 @@ class LocalMap {
   void draw_lines();
   void draw_line(Surfel& surfel) const noexcept;
 
+  // What a search reads of a surfel, and the next of the same cell; -1: none.
+  struct Entry {
+    Eigen::Vector2d p;
+    Eigen::Vector2d normal;
+    std::int32_t next;
+
+    bool is_surface() const noexcept { return !normal.isZero(0.0); }
+  };
   std::vector<Surfel> surfels_;
-  std::vector<std::int32_t> next_;  ///< of the same cell; -1: none
-  std::vector<Cell> cells_;         ///< an open hash table, its size a power of two
+  std::vector<Entry> entries_;
+  std::vector<Cell> cells_;  ///< an open hash table, its size a power of two
   std::size_t used_ = 0;
   std::vector<std::int32_t> changed_;
   std::vector<char> stale_;  ///< whose line is to be drawn anew

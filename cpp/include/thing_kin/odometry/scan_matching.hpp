@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "thing_kin/lie/se2.hpp"
 #include "thing_kin/odometry/local_map.hpp"
-#include "thing_kin/odometry/planar_motion.hpp"
 #include "thing_kin/odometry/scan.hpp"
 
 namespace thing_kin {
@@ -24,6 +24,15 @@ struct MatchOptions {
   double degenerate_share = 0.01;  ///< of the points: less that tells a direction does not count
   int max_iterations = 30;
   int max_points = 400;  ///< of a scan; more are thinned evenly
+};
+
+/// Where a scan may lie.
+struct MatchGuess {
+  Pose2 pose = Pose2::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< (x, y, theta), axes of the map
+  /// Most fitness, of 1, that a fit loses for being far off: infinite for a guess that was
+  /// measured.
+  double most_penalty = 0.25;
 };
 
 /// How a scan lies in a map.
@@ -60,7 +69,7 @@ inline constexpr double kUntoldVariance = 1e4;
 /// each of the starts and, if no fit is good, from where a correlative search finds the scan
 /// (Olson 2009). The best fit is kept; fits that are far off the guess by its covariance count
 /// less. Directions that the scans don't tell stay as in the guess. `noise`: of a range, m.
-ScanMatch match_scan(const LocalMap& map, const PlanarScan& scan, const PlanarEstimate& guess,
+ScanMatch match_scan(const LocalMap& map, const PlanarScan& scan, const MatchGuess& guess,
                      std::span<const Pose2> starts, double noise, const MatchOptions& options);
 
 }  // namespace thing_kin
