@@ -12,7 +12,9 @@ import tempfile
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent.parent / "python" / "thing_kin"
-MODULES = tuple(f"thing_kin._{name}" for name in ("core", "ceres", "estimation", "kdl", "odometry", "urdf"))
+MODULES = tuple(
+    f"thing_kin._{name}" for name in ("core", "ceres", "estimation", "kdl", "odometry", "urdf")
+)
 
 
 def generate(directory: Path) -> Path:

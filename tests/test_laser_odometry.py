@@ -1,0 +1,233 @@
+"""Drives followed by scans: drift, standstill, losses bridged, time that goes backwards."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from ray_casting import World
+from scan_drives import SENSORS, between, compose, record
+from scan_statistics import INSIDE, KNOWN, follow, scanner_of
+from scan_worlds import FAMILIES
+from thing_kin import odometry
+
+RNG = np.random.default_rng
+NARROW, MIDDLE, FINE, OFF = (
+    SENSORS[name]
+    for name in (
+        "180 beams, 180 degrees",
+        "361 beams, 180 degrees",
+        "1081 beams, 270 degrees",
+        "361 beams, off-centre",
+    )
+)
+ROOM = World(np.array([[-4, -3, 4, -3], [4, -3, 4, 3], [4, 3, -4, 3], [-4, 3, -4, -3.0]]))
+
+
+def scan_at(pose, sensor=NARROW, seed=0, world=ROOM):
+    pose = np.asarray(pose, dtype=float)
+    return sensor.scan(world, lambda t: np.tile(pose, (len(t), 1)), 0.0, RNG(seed))
+
+
+def state_of(lidar):
+    return np.array(lidar.poses)
+
+
+# --- drift --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("family", [f for f in KNOWN if not f.startswith("corridor")])
+def test_drift_in_rooms(family):
+    drive = follow(family, MIDDLE, (10, 0), seconds=8.0)
+    assert not drive.lost.any()
+    assert drive.end[0] < 0.03
+    assert drive.end[1] < 0.01
+
+
+@pytest.mark.parametrize("family", ["corridor, doors", "corridor, pillars"])
+def test_drift_in_corridors_with_something_on_their_walls(family):
+    drive = follow(family, FINE, (11, 0), seconds=6.0, wheels=0.03)
+    assert not drive.lost.any()
+    assert drive.end[0] < 0.1
+    assert drive.end[1] < 0.01
+
+
+def test_a_plain_corridor_is_left_to_the_wheels():
+    drive = follow("corridor, plain", FINE, (12, 0), seconds=6.0, wheels=0.03)
+    assert not drive.lost.any()
+    assert drive.end[0] < 0.05 * drive.length + 0.05
+    heading = drive.truth[1:-1, 2]
+    covariances = drive.covariances[2:]
+    along = np.stack([np.cos(heading), -np.sin(heading)], axis=1)
+    known = np.sqrt(np.einsum("ni,nij,nj->n", along, covariances[:, :2, :2], along))
+    assert np.median(known) > 5 * np.median(np.sqrt(covariances[:, 2, 2]))
+
+
+def test_an_off_centre_mount():
+    drive = follow("room", OFF, (13, 0), seconds=8.0)
+    assert not drive.lost.any()
+    assert drive.end[0] < 0.03
+
+
+@pytest.mark.parametrize("family", ["room", "people"])
+def test_nees_of_steps(family):
+    nees = np.concatenate([follow(family, MIDDLE, (14, k), seconds=6.0).nees for k in range(3)])
+    assert np.mean(nees < INSIDE) > 0.8
+    assert 0.3 < np.median(nees) < 5.0  # of chi-square of 3: 2.37
+
+
+# --- large turns --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("degrees", [-150, -90, 45, 120, 150])
+def test_turns_against_the_local_map(degrees):
+    rng = RNG(20)
+    world = FAMILIES["room"](rng)
+    sensor = replace(FINE, scan_time=0.0)  # it stands while it scans
+    drive = record(world, sensor, rng, seconds=3.0)
+    lidar = odometry.LaserOdometry(scanner_of(sensor))
+    for k, turn in enumerate(np.linspace(0, 2 * np.pi, 20, endpoint=False)):  # looks around first
+        pose = compose(drive.poses[0], np.array([0.0, 0.0, turn]))
+        lidar.add(scan_at(pose, sensor, k, world), t=0.1 * k)
+    motion = np.array([0.3, 0.1, np.radians(degrees) + 2 * np.pi / 20])
+    pose = compose(pose, motion)
+    step = lidar.add(scan_at(pose, sensor, 99, world), t=2.0)
+    assert step.status == "tracking"
+    np.testing.assert_allclose(between(drive.poses[0], pose), step.pose, atol=0.03)
+
+
+# --- statuses -----------------------------------------------------------------------------------
+
+
+def test_the_first_scan_is_the_origin():
+    lidar = odometry.LaserOdometry(scanner_of(NARROW))
+    assert np.asarray(lidar.poses).shape == (0, 3)
+    step = lidar.add(scan_at((0.5, 0.3, 1.0)), t=3.0)
+    assert step.status == "first"
+    np.testing.assert_array_equal(step.pose, 0)
+    np.testing.assert_array_equal(step.motion, 0)
+
+
+def test_standing_still_is_seen_and_does_not_drift():
+    lidar = odometry.LaserOdometry(scanner_of(MIDDLE))
+    status = [
+        lidar.add(scan_at((0.5, 0.3, 1.0), MIDDLE, seed=k), t=0.1 * k).status for k in range(200)
+    ]
+    assert status[1:].count("still") > 150
+    assert np.abs(lidar.poses).max() < 0.005
+
+
+def test_duplicated_scans_are_no_motion():
+    lidar = odometry.LaserOdometry(scanner_of(NARROW))
+    scan = scan_at((0.5, 0.3, 1.0))
+    for k in range(5):
+        step = lidar.add(scan, t=0.1 * k)
+    np.testing.assert_allclose(step.pose, 0, atol=1e-6)
+    assert np.linalg.eigvalsh(step.covariance)[0] > 0
+
+
+@pytest.mark.parametrize("bad", [np.inf, np.nan, -np.inf, 0.0])
+def test_a_lost_scan_is_bridged_by_the_guess_and_says_so(bad):
+    lidar = odometry.LaserOdometry(scanner_of(MIDDLE))
+    path = [np.array([0.05 * k, 0.0, 0.02 * k]) for k in range(12)]
+    for k in range(10):
+        step = lidar.add(scan_at(path[k], MIDDLE, k), t=0.1 * k)
+    sure = np.sqrt(np.diag(step.covariance))
+    motion = between(path[9], path[10])
+    lost = lidar.add(np.full(361, bad), t=1.0, motion=motion)
+    assert lost.status == "lost"
+    np.testing.assert_allclose(lost.motion, motion)
+    assert (np.sqrt(np.diag(lost.covariance)) > 2 * sure).all()
+    found = lidar.add(scan_at(path[11], MIDDLE, 11), t=1.1)
+    assert found.status == "tracking"
+    np.testing.assert_allclose(found.pose, path[11], atol=0.02)
+    assert len(lidar.poses) == 12
+
+
+def test_bridged_without_wheels_it_keeps_its_velocity():
+    lidar = odometry.LaserOdometry(scanner_of(MIDDLE))
+    for k in range(10):
+        lidar.add(scan_at((0.05 * k, 0, 0), MIDDLE, k), t=0.1 * k)
+    lost = lidar.add(np.full(361, np.inf), t=1.0)
+    assert lost.status == "lost"
+    np.testing.assert_allclose(lost.motion, (0.05, 0, 0), atol=0.02)
+
+
+def test_motion_covariance_of_the_bridge_is_the_wheels():
+    lidar = odometry.LaserOdometry(scanner_of(NARROW))
+    lidar.add(scan_at((0, 0, 0)), t=0.0)
+    covariance = np.diag([0.04, 0.01, 0.09])
+    lost = lidar.add(
+        np.full(180, np.inf), t=0.1, motion=(0.1, 0.0, 0.0), motion_covariance=covariance
+    )
+    assert lost.status == "lost"
+    assert (np.diag(lost.covariance) >= 0.999 * np.diag(covariance)).all()
+
+
+def test_poses_are_the_chain_of_the_motions():
+    drive = follow("room", NARROW, (15, 0), seconds=4.0)
+    pose = np.zeros(3)
+    for motion, expected in zip(drive.motions[1:], drive.poses[1:], strict=True):
+        pose = compose(pose, motion)
+        np.testing.assert_allclose(pose[:2], expected[:2], atol=1e-9)
+        np.testing.assert_allclose(np.exp(1j * pose[2]), np.exp(1j * expected[2]), atol=1e-9)
+
+
+# --- misuse -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("change", "argument"),
+    [
+        ({"t": 0.25}, "t"),  # backwards
+        ({"t": np.nan}, "t"),
+        ({"t": np.inf}, "t"),
+        ({"ranges": np.ones(179)}, "ranges"),
+        ({"ranges": np.empty(0)}, "ranges"),
+        ({"motion": (0.0, 0.0)}, "motion"),
+        ({"motion": (0.0, np.nan, 0.0)}, "motion"),
+        ({"motion": (0.0, 0.0, 0.0), "motion_covariance": -np.eye(3)}, "motion_covariance"),
+        ({"motion": (0.0, 0.0, 0.0), "motion_covariance": np.eye(2)}, "motion_covariance"),
+    ],
+)
+def test_refused_and_unharmed(change, argument):
+    lidar, twin = (odometry.LaserOdometry(scanner_of(NARROW)) for _ in range(2))
+    for one in (lidar, twin):
+        for k in range(4):
+            one.add(scan_at((0.02 * k, 0, 0), seed=k), t=0.1 * k)
+    before = state_of(lidar)
+    given = {"ranges": scan_at((0.08, 0, 0), seed=4), "t": 0.4, **change}
+    with pytest.raises(ValueError, match=rf"^{argument}\b"):
+        lidar.add(given.pop("ranges"), **given)
+    np.testing.assert_array_equal(state_of(lidar), before)
+    for k in range(4, 8):  # as if it had never been asked
+        steps = [one.add(scan_at((0.02 * k, 0, 0), seed=k), t=0.1 * k) for one in (lidar, twin)]
+        np.testing.assert_array_equal(steps[0].pose, steps[1].pose)
+        np.testing.assert_array_equal(steps[0].covariance, steps[1].covariance)
+
+
+def test_steps_and_poses_are_copies():
+    lidar = odometry.LaserOdometry(scanner_of(NARROW))
+    for k in range(3):
+        step = lidar.add(scan_at((0.02 * k, 0, 0), seed=k), t=0.1 * k)
+    last = np.array(step.pose)
+    poses = lidar.poses
+    if poses.flags.writeable:
+        poses[:] = 7.0
+    lidar.add(scan_at((0.06, 0, 0), seed=3), t=0.3)
+    np.testing.assert_array_equal(step.pose, last)
+    np.testing.assert_array_equal(lidar.poses[2], last)
+
+
+def test_a_map_that_is_nothing_like_the_scan_is_lost_and_then_found():
+    rng = RNG(21)
+    here, there = FAMILIES["room"](rng), FAMILIES["pillars"](rng)
+    lidar = odometry.LaserOdometry(scanner_of(FINE))
+    for k in range(5):
+        lidar.add(scan_at((0.03 * k, 0, 0), FINE, k, here), t=0.1 * k)
+    status = [
+        lidar.add(scan_at((0.03 * k, 0, 0), FINE, k, there), t=0.1 * k).status for k in range(5, 15)
+    ]
+    assert status[0] != "still"
+    assert status[-1] in ("tracking", "lost")
+    assert np.isfinite(lidar.poses).all()
