@@ -1,6 +1,6 @@
 #include <pybind11/stl.h>
 
-#include "estimation/localizer_bindings.hpp"
+#include "localizer_bindings.hpp"
 
 namespace thing_kin::python {
 

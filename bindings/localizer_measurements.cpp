@@ -3,7 +3,7 @@
 
 #include <pybind11/stl.h>
 
-#include "estimation/localizer_bindings.hpp"
+#include "localizer_bindings.hpp"
 #include "quick_method.hpp"
 
 namespace thing_kin::python {
