@@ -94,15 +94,16 @@ class QuickMethod<function> {
   static void define(Class& owner, const char* name, const Extra&... extra) {
     owner.def(name, function, extra...);
     (note(extra), ...);
-    positional_ = keyword_only_ ? positional_ : kCount;
-    type_ = reinterpret_cast<PyTypeObject*>(owner.ptr());
+    most_positional = has_keyword_only ? most_positional : kCount;
+    exact_type = reinterpret_cast<PyTypeObject*>(owner.ptr());
     const py::object slow = owner.attr(name);
     // As long as the module: never freed.
-    slow_ = slow.inc_ref().ptr();
-    doc_ = new std::string(slow.attr("__doc__").template cast<std::string>());
-    definition_ = {name, reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(&call)),
-                   METH_FASTCALL | METH_KEYWORDS, doc_->c_str()};
-    owner.attr(name) = py::reinterpret_steal<py::object>(PyDescr_NewMethod(type_, &definition_));
+    slow_method = slow.inc_ref().ptr();
+    docstring = new std::string(slow.attr("__doc__").template cast<std::string>());
+    definition = {name, reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(&call)),
+                  METH_FASTCALL | METH_KEYWORDS, docstring->c_str()};
+    owner.attr(name) =
+        py::reinterpret_steal<py::object>(PyDescr_NewMethod(exact_type, &definition));
   }
 
  private:
@@ -112,17 +113,17 @@ class QuickMethod<function> {
   }
   static void note(const char* /*doc*/) {}
   static void note(py::kw_only /*mark*/) {
-    positional_ = noted_;
-    keyword_only_ = true;
+    most_positional = noted;
+    has_keyword_only = true;
   }
   static void note(const char* name, PyObject* fallback) {
-    names_[noted_] = PyUnicode_InternFromString(name);
-    defaults_[noted_++] = fallback;
+    argument_names[noted] = PyUnicode_InternFromString(name);
+    argument_defaults[noted++] = fallback;
   }
 
   static bool gather(PyObject* const* arguments, std::size_t count, PyObject* names,
                      Values& values) noexcept {
-    if (count > positional_) {
+    if (count > most_positional) {
       return false;
     }
     std::size_t k = 0;
@@ -135,7 +136,7 @@ class QuickMethod<function> {
     const Py_ssize_t named = names != nullptr ? PyTuple_GET_SIZE(names) : 0;
     for (Py_ssize_t i = 0; i < named; ++i) {
       k = count;
-      while (k < kCount && names_[k] != PyTuple_GET_ITEM(names, i)) {
+      while (k < kCount && argument_names[k] != PyTuple_GET_ITEM(names, i)) {
         ++k;
       }
       if (k == kCount || values[k] != nullptr) {
@@ -144,7 +145,7 @@ class QuickMethod<function> {
       values[k] = arguments[count + static_cast<std::size_t>(i)];
     }
     for (k = count; k < kCount; ++k) {
-      values[k] = values[k] != nullptr ? values[k] : defaults_[k];
+      values[k] = values[k] != nullptr ? values[k] : argument_defaults[k];
       if (values[k] == nullptr) {
         return false;
       }
@@ -155,7 +156,7 @@ class QuickMethod<function> {
   static PyObject* call(PyObject* self, PyObject* const* arguments, Py_ssize_t count,
                         PyObject* names) noexcept {
     Values values;
-    Self* const object = object_of<Self>(self, type_);
+    Self* const object = object_of<Self>(self, exact_type);
     if (object != nullptr && gather(arguments, static_cast<std::size_t>(count), names, values)) {
       try {
         PyObject* result = nullptr;
@@ -200,18 +201,18 @@ class QuickMethod<function> {
     }
     all[0] = self;
     std::copy_n(arguments, given, all.data() + 1);
-    return PyObject_Vectorcall(slow_, all.data(), static_cast<std::size_t>(count) + 1, names);
+    return PyObject_Vectorcall(slow_method, all.data(), static_cast<std::size_t>(count) + 1, names);
   }
 
-  inline static std::array<PyObject*, kCount> names_{};
-  inline static std::array<PyObject*, kCount> defaults_{};
-  inline static std::size_t noted_ = 0;
-  inline static std::size_t positional_ = 0;
-  inline static bool keyword_only_ = false;
-  inline static PyTypeObject* type_ = nullptr;
-  inline static PyObject* slow_ = nullptr;
-  inline static std::string* doc_ = nullptr;
-  inline static PyMethodDef definition_{};
+  inline static std::array<PyObject*, kCount> argument_names{};
+  inline static std::array<PyObject*, kCount> argument_defaults{};
+  inline static std::size_t noted = 0;
+  inline static std::size_t most_positional = 0;
+  inline static bool has_keyword_only = false;
+  inline static PyTypeObject* exact_type = nullptr;
+  inline static PyObject* slow_method = nullptr;
+  inline static std::string* docstring = nullptr;
+  inline static PyMethodDef definition{};
 };
 
 }  // namespace thing_kin::python

@@ -8,7 +8,7 @@ import numpy as np
 
 import thing_kin as tk
 from thing_kin import estimation as est
-from thing_kin import interop, kdl, lie
+from thing_kin import interop, kdl, lie, odometry
 from thing_kin.kdl import KdlChain
 
 ROBOT = tk.robots.thing()
@@ -460,6 +460,50 @@ PATH = [
     Argument("PathFollower.push", "pose", POSES[0], follower_with("pose"), moderate=True),
     Argument("PathFollower.push", "base", Q[6:], follower_with("base"), moderate=True),
 ]
+SCANNER = odometry.Scanner(-1.5, 1.5, 9, range_max=30.0)
+RANGES = np.array([2.0, 2.1, 2.2, 2.1, 2.0, 1.9, 1.8, 1.9, 2.0])
+
+
+def matched(name: str) -> Callable[[Any], Any]:
+    known = {"guess": XI[3:], "guess_covariance": np.eye(3)}
+
+    def call(value: Any) -> np.ndarray:
+        match = odometry.match(SCANNER, RANGES, RANGES, **{**known, name: value})
+        return np.append(match.pose, match.covariance)
+
+    return call
+
+
+def followed(name: str) -> Callable[[Any], Any]:
+    def call(value: Any) -> np.ndarray:
+        lidar = odometry.LaserOdometry(SCANNER)
+        lidar.add(RANGES, t=0.0)
+        step = lidar.add(RANGES, t=0.1, **{"motion": XI[3:], name: value})
+        return np.append(step.pose, step.covariance)
+
+    return call
+
+
+LIDAR = [
+    Argument("Scanner", "mount", XI[3:], lambda v: odometry.Scanner(0, 1, 9, mount=v).mount),
+    Argument(
+        "Scanner.points",
+        "twist",
+        XI[3:],
+        lambda v: SCANNER.points(RANGES, twist=v)[0],
+        moderate=True,
+    ),
+    Argument("match", "guess", XI[3:], matched("guess"), moderate=True),
+    Argument("match", "guess_covariance", np.eye(3), matched("guess_covariance"), moderate=True),
+    Argument("LaserOdometry", "motion", XI[3:], followed("motion"), moderate=True),
+    Argument(
+        "LaserOdometry",
+        "motion_covariance",
+        np.eye(3),
+        followed("motion_covariance"),
+        moderate=True,
+    ),
+]
 # thing_kin.estimation, one list for each family of concepts.
 STATE = {"x": np.array([0.5, 1.0, 0.2, -0.1]), "P": np.eye(4) + 0.1}
 MOVED = {"F": np.eye(4) + np.eye(4, k=2), "Q": 0.1 * np.eye(4)}
@@ -713,6 +757,7 @@ ODOMETRY = [
     ),
 ]
 ARGUMENTS = [
+    *LIDAR,
     *FILTERS,
     *ODOMETRY,
     *LOCALIZER,
@@ -766,10 +811,14 @@ OPTIONAL = {
     "slip_variance",
     "joint_covariance",
     "mount_covariance",
+    "guess_covariance",
+    "motion",
+    "motion_covariance",
 }
 
 # Labels where such a name is not optional.
 REQUIRED = (
+    "Scanner",
     "Path",
     "rotation",
     "JointRange",

@@ -5,8 +5,8 @@
 
 #include <pybind11/stl.h>
 
-#include "localizer_bindings.hpp"
 #include "estimation_bindings.hpp"
+#include "localizer_bindings.hpp"
 #include "thing_kin/core/error.hpp"
 
 namespace thing_kin::python {

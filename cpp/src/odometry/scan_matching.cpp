@@ -231,8 +231,10 @@ Matrix3d spread_of(const LocalMap& map, const PlanarScan& scan, const Fit& fit, 
               [&](const Pairing& pair) { ++hits[index(pair.surfel)]; });
   Matrix3d B = Matrix3d::Zero();
   visit_pairs(map, scan, fit.pose, kLastDistance, [&](const Pairing& pair) {
-    // Points that share a surfel share its error.
-    const double shared = hits[index(pair.surfel)] / pair.surfel->weight;
+    // Points that share a surfel share its error: its noise, and what its surface is off a line.
+    const int points = hits[index(pair.surfel)];
+    const double curved = std::max(pair.surfel->roughness / (noise * noise) - 1.0, 0.0);
+    const double shared = points * (1.0 / pair.surfel->weight + curved);
     equations(pair, [&](const Vector3d& J, double, double w) {
       B.noalias() += (w * w * (1.0 + shared)) * J * J.transpose();
     });
