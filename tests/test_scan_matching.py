@@ -75,6 +75,28 @@ def test_the_mount_turns_the_answer_and_nothing_else(mount):
     np.testing.assert_allclose(off.pose, expected, atol=2e-3)
 
 
+def test_a_scanner_that_hangs_upside_down_tells_the_same():
+    two = pair(FAMILIES["room"](RNG(4)), MIDDLE, RNG(4))
+    given = MIDDLE.arguments()
+    falling = {**given, "angle_min": given["angle_max"], "angle_max": given["angle_min"]}
+    one = odometry.match(scanner_of(MIDDLE), two.a, two.b)
+    other = odometry.match(odometry.Scanner(**falling), two.a[::-1], two.b[::-1])
+    np.testing.assert_allclose(other.pose, one.pose, atol=2e-4)
+    np.testing.assert_allclose(other.covariance, one.covariance, rtol=0.1, atol=1e-6)
+
+
+def test_the_guess_turns_with_the_world_it_is_made_in():
+    """Both robots turned by the same on the spot: b in a is another, the scans' worth is not."""
+    room, sensor = FAMILIES["room"](RNG(6)), replace(TURN, noise=0.0, dropouts=0.0)
+    a, b = np.zeros(3), np.array([0.1, 0.05, 0.1])
+    for yaw in (0.5, 2.0, -3.0):
+        turn = np.array([0.0, 0.0, yaw])
+        scans = [scan_of(room, sensor, compose(p, turn)) for p in (a, b)]
+        match = odometry.match(scanner_of(sensor), *scans)
+        expected = between(compose(a, turn), compose(b, turn))
+        np.testing.assert_allclose(match.pose, expected, atol=0.01)
+
+
 def test_both_ways_are_inverse():
     for seed in range(5):
         two = pair(FAMILIES["room"](RNG(seed)), FINE, RNG(seed))
