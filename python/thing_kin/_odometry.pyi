@@ -171,6 +171,16 @@ class ScanMatch:
     
     The pose to go by where `status` is "converged" (or, nearly, "iteration_limit"); with "poor_fit"
     and "too_few_points" it is the guess, and the covariance the guess's.
+    
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from thing_kin import odometry
+    >>> scanner = odometry.Scanner(-np.pi / 2, np.pi / 2, 181)
+    >>> nothing = np.full(181, np.inf)
+    >>> match = odometry.match(scanner, nothing, nothing, guess=(0.1, 0.0, 0.0))
+    >>> match.status, match.degenerate, match.pose
+    ('too_few_points', True, array([0.1, 0. , 0. ]))
     """
     def __repr__(self) -> str:
         ...
@@ -237,6 +247,15 @@ class ScanMatch:
 class LaserStep:
     """
     What one scan said: the motion since the one before.
+    
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from thing_kin import odometry
+    >>> lidar = odometry.LaserOdometry(odometry.Scanner(-np.pi / 2, np.pi / 2, 181))
+    >>> step = lidar.add(1.0 / np.cos(0.9 * lidar.scanner.angles / 2), t=0.0)
+    >>> step.status, step.keyframe
+    ('first', True)
     """
     def __repr__(self) -> str:
         ...
@@ -363,6 +382,16 @@ class LaserOdometry:
         ValueError
             If an array has another shape, `t` is not after the scan before, or a covariance is none. The
             state is as it was.
+        
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from thing_kin import odometry
+        >>> lidar = odometry.LaserOdometry(odometry.Scanner(-np.pi / 2, np.pi / 2, 181))
+        >>> first = lidar.add(1.0 / np.cos(0.9 * lidar.scanner.angles / 2), t=0.0)
+        >>> blind = lidar.add(np.full(181, np.inf), t=0.1, motion=(0.05, 0.0, 0.0))
+        >>> blind.status, blind.pose
+        ('lost', array([0.05, 0.  , 0.  ]))
         """
     @property
     def map_normals(self) -> numpy.typing.NDArray[numpy.float64]:
