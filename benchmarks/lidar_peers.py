@@ -211,9 +211,12 @@ class Ours(Peer):
 
         super().__init__(sensor)
         self.odometry, self.scanner = odometry, odometry.Scanner(**sensor.arguments())
+        self.unsure: list[bool] = []  # of each match, whether it said that it is not to be believed
 
     def match(self, a: Array, b: Array) -> Array:
-        return np.asarray(self.odometry.match(self.scanner, a, b).pose)
+        match = self.odometry.match(self.scanner, a, b)
+        self.unsure.append(match.degenerate or match.status != "converged")
+        return np.asarray(match.pose)
 
     def follow(self, scans: Array) -> Iterator[Array]:
         lidar = self.odometry.LaserOdometry(self.scanner)

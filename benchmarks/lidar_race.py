@@ -102,6 +102,9 @@ def race_pairs(name: str, contenders: list[Peer], count: int) -> None:
             f"| {top[0]:.0f} | {half[1]:.1f} | {most[1]:.1f} | {np.median(took[peer.name]):.0f} "
             f"| {peer.options or ''} |"
         )
+        if isinstance(peer, Ours):
+            said = int(np.sum(lost & np.array(peer.unsure)))
+            print(f"<!-- thing_kin: {said} of {lost.sum()} lost said so -->")
 
 
 def race_drives(name: str, contenders: list[Peer], drives: list[Any], rate: float) -> None:
@@ -126,7 +129,7 @@ def race_drives(name: str, contenders: list[Peer], drives: list[Any], rate: floa
             f"| {peer.name} | {is_lost(errors).sum()} of {len(errors)} | {half:.1f} | {most:.1f} "
             f"| {np.median(ends):.3f} | {np.max(ends):.2f} | {micro:.0f} |"
         )
-        if peer.name == "thing_kin":
+        if isinstance(peer, Ours):
             share = np.mean(took) * 1e-6 * 40
             print(f"<!-- thing_kin: {100 * share:.1f} % of a core at 40 Hz -->")
 

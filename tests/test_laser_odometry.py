@@ -206,6 +206,30 @@ def test_refused_and_unharmed(change, argument):
         np.testing.assert_array_equal(steps[0].covariance, steps[1].covariance)
 
 
+def test_unix_stamps_lose_nothing():
+    plain, stamped = (odometry.LaserOdometry(scanner_of(NARROW)) for _ in range(2))
+    for k in range(6):  # quarters of a second are exact in both
+        scan = scan_at((0.05 * k, 0, 0), seed=k)
+        one, other = plain.add(scan, t=0.25 * k), stamped.add(scan, t=1.7e9 + 0.25 * k)
+        np.testing.assert_array_equal(one.pose, other.pose)
+
+
+def test_after_many_lost_scans_it_begins_anew_elsewhere():
+    rng = RNG(22)
+    here, there = FAMILIES["room"](rng), FAMILIES["pillars"](rng)
+    sensor = replace(FINE, scan_time=0.0)
+    lidar = odometry.LaserOdometry(scanner_of(sensor), lost_limit=3)
+    for k in range(4):
+        lidar.add(scan_at((0.05 * k, 0, 0), sensor, k, here), t=0.1 * k)
+    for k in range(4, 9):
+        lidar.add(np.full(1081, np.inf), t=0.1 * k)
+    poses = [np.array([0.05 * k, 0.0, 0.01 * k]) for k in range(20)]
+    steps = [lidar.add(scan_at(p, sensor, k, there), t=1 + 0.1 * k) for k, p in enumerate(poses)]
+    assert [s.status for s in steps[-10:]] == ["tracking"] * 10
+    for k in range(11, 20):
+        np.testing.assert_allclose(steps[k].motion, between(poses[k - 1], poses[k]), atol=0.01)
+
+
 def test_steps_and_poses_are_copies():
     lidar = odometry.LaserOdometry(scanner_of(NARROW))
     for k in range(3):

@@ -4,6 +4,6 @@ Planar poses are (x, y, theta), in metres and radians; the covariance of a motio
 where it began. The odometry of wheels is in `thing_kin.estimation`.
 """
 
-from thing_kin._odometry import LaserOdometry, LaserStep, Scanner, ScanMatch, match
+from thing_kin._odometry import LaserOdometry, LaserStep, ScanMatch, Scanner, match
 
 __all__ = ["LaserOdometry", "LaserStep", "ScanMatch", "Scanner", "match"]

@@ -144,7 +144,8 @@ def _matrix(values: ArrayLike, name: str) -> Array:
 
 def _placed(pose: Array, points: Array) -> Array:
     c, s = np.cos(pose[2]), np.sin(pose[2])
-    return points @ np.array([[c, s], [-s, c]]) + pose[:2]
+    placed: Array = points @ np.array([[c, s], [-s, c]]) + pose[:2]
+    return placed
 
 
 def _returns(scanner: Scanner, ranges: Array) -> Array:
