@@ -152,12 +152,12 @@ def test_recovery_from_half_a_meter_and_45_degrees(sensor):
 @pytest.mark.parametrize(
     ("family", "inside"),
     [
-        ("room", 0.8),
-        ("empty room", 0.85),
-        ("corridor, pillars", 0.85),
-        ("glass", 0.85),
-        ("pillars", 0.8),
-        ("people", 0.6),  # who walks is part of the world where nothing else tells
+        ("room", 0.9),
+        ("empty room", 0.9),
+        ("corridor, pillars", 0.95),
+        ("glass", 0.9),
+        ("pillars", 0.85),  # round things, see above
+        ("people", 0.8),  # who walks is part of the world where nothing else tells
     ],
 )
 def test_nees_is_in_its_band(family, inside):
@@ -165,7 +165,7 @@ def test_nees_is_in_its_band(family, inside):
     nees = found.nees
     assert len(nees) > 45
     assert np.mean(nees < INSIDE) >= inside
-    assert 0.8 < np.median(nees) < 5.5  # of chi-square of 3: 2.37
+    assert 0.4 < np.median(nees) < 4.0  # of chi-square of 3: 2.37
 
 
 def test_covariances_are_covariances():
