@@ -44,8 +44,7 @@ void joseph(const Gaussian& state, const LinearMeasurement& measured, const Inno
             double* P) noexcept {
   const int n = kernels::size_of<N>(state.size());
   const int m = kernels::size_of<M>(measured.rows);
-  EntriesOf<N> A;  // I - K H, in columns: those that H does not see are the identity's
-  std::fill_n(A.data(), n * n, 0.0);
+  EntriesOf<N> A{};  // I - K H, in columns: those that H does not see are the identity's
   for (int j = 0; j < n; ++j) {
     double* const column = A.data() + j * n;
     column[j] = 1.0;

@@ -96,7 +96,7 @@ class LikelihoodGrid {
     }
   }
 
-  void pool(const std::vector<std::uint8_t>& fine, int step, std::vector<std::uint8_t>& out) {
+  void pool(const std::vector<std::uint8_t>& fine, int step, std::vector<std::uint8_t>& out) const {
     const auto side = static_cast<std::size_t>(side_);
     const auto ahead = static_cast<std::size_t>(step);
     out = fine;

@@ -124,6 +124,92 @@ void LaserOdometry::keep(LaserStep& step) {
   }
 }
 
+// Where the robot may be, in the map, after a motion that was measured or is guessed.
+MatchGuess LaserOdometry::guess_pose(const PlanarEstimate& moved, bool measured) const {
+  const Pose2 guessed = compose(pose_, moved.pose);
+  Matrix3d by_pose = Matrix3d::Identity();
+  by_pose(0, 2) = -(guessed - pose_).y();
+  by_pose(1, 2) = (guessed - pose_).x();
+  return {.pose = guessed,
+          .covariance = by_pose * noise_ * by_pose.transpose() + in_world(pose_, moved.covariance),
+          .most_penalty = measured ? std::numeric_limits<double>::infinity() : kMostPenalty};
+}
+
+ScanMatch LaserOdometry::find(std::span<const double> ranges, const MatchGuess& guess,
+                              const Twist2& twist, double dt) {
+  const bool measured = std::isinf(guess.most_penalty);
+  ScanMatch first = match(guess, measured);
+  const Twist2 seen = se2_log(between(pose_, first.pose)) / dt;
+  const double skew = ((seen - twist) * scanner_.scan_time).cwiseAbs().maxCoeff();
+  if (skew <= kSkew || first.status != MatchStatus::kConverged) {
+    return first;
+  }
+  // The robot moved otherwise than the scan was corrected for.
+  read_scan(scanner_, ranges, seen, scan_);
+  MatchGuess better = guess;
+  better.pose = first.pose;
+  return match(better, true);
+}
+
+// The scan begins a map: nothing was seen so far, or all was forgotten.
+void LaserOdometry::begin(const PlanarEstimate& moved, LaserStep& step) {
+  pose_ = compose(pose_, moved.pose);
+  map_.insert(scan_, pose_, way_);
+  step.status = map_.surfels().empty() ? LaserStatus::kLost : LaserStatus::kFirst;
+  step.keyframe = step.status == LaserStatus::kFirst;
+  step.motion = moved.pose;
+  step.covariance = moved.covariance;
+  step.scan_covariance = Matrix3d::Identity() * kUntoldVariance;
+  keyframe_ = pose_;
+  noise_.setZero();
+  scan_noise_.setZero();
+}
+
+// Goes where the match says, or on with its guess.
+void LaserOdometry::follow(const ScanMatch& match, const PlanarEstimate& moved, LaserStep& step) {
+  const bool found =
+      match.status == MatchStatus::kConverged || match.status == MatchStatus::kIterationLimit;
+  step.match = match;
+  step.status = !found               ? LaserStatus::kLost
+                : seems_still(match) ? LaserStatus::kStill
+                                     : LaserStatus::kTracking;
+  const Pose2 before = pose_;
+  pose_ = step.status == LaserStatus::kStill ? pose_ : match.pose;
+  step.motion = between(before, pose_);
+  // Along what no scan tells the motion is as uncertain as its guess; the pose, in the map, as all
+  // guesses since something told.
+  const Matrix3d& told = match.told;
+  const Matrix3d untold = Matrix3d::Identity() - told;
+  const Matrix3d spread = in_world(before, moved.covariance);
+  step.covariance = motion_covariance(
+      before, told * noise_ * told.transpose(), pose_,
+      told * match.covariance * told.transpose() + untold * spread * untold.transpose());
+  step.scan_covariance = motion_covariance(before, scan_noise_, pose_, match.scan_covariance);
+  noise_ = match.covariance;
+  scan_noise_ = match.scan_covariance;
+  if (found) {
+    // What the scans hardly tell must not become a velocity: weighed with the guess.
+    const Pose2 off = pose_difference(step.motion, moved.pose);
+    const Matrix3d sum = step.covariance + moved.covariance;
+    const Pose2 likely = moved.pose + moved.covariance * sum.ldlt().solve(off);
+    twist_ = se2_log(likely) / (step.t - step.t_from);
+  }
+}
+
+// A map begins anew where too many scans in a row are lost.
+void LaserOdometry::count_lost(LaserStep& step) {
+  if (++lost_ < options_.lost_limit || scan_.empty()) {
+    return;
+  }
+  lost_ = 0;
+  map_.clear();
+  map_.insert(scan_, pose_, way_);
+  keyframe_ = pose_;
+  noise_.setZero();
+  scan_noise_.setZero();
+  step.keyframe = true;
+}
+
 LaserStep LaserOdometry::add(std::span<const double> ranges, double t,
                              const std::optional<PlanarEstimate>& motion) {
   if (!std::isfinite(t) || (t_ && !(t > *t_))) {
@@ -134,76 +220,19 @@ LaserStep LaserOdometry::add(std::span<const double> ranges, double t,
   step.t_from = t_.value_or(t);
   const double dt = t - step.t_from;
   const PlanarEstimate moved = t_ ? guess_motion(dt, motion) : PlanarEstimate{};
-  Twist2 twist = dt > 0.0 ? Twist2(se2_log(moved.pose) / dt) : Twist2::Zero();
+  const Twist2 twist = dt > 0.0 ? Twist2(se2_log(moved.pose) / dt) : Twist2::Zero();
   read_scan(scanner_, ranges, twist, scan_);
-
   if (map_.surfels().empty()) {
-    // Nothing was seen so far, or all was forgotten.
-    pose_ = compose(pose_, moved.pose);
-    map_.insert(scan_, pose_, way_);
-    step.status = map_.surfels().empty() ? LaserStatus::kLost : LaserStatus::kFirst;
-    step.keyframe = step.status == LaserStatus::kFirst;
-    keyframe_ = pose_;
-    step.motion = moved.pose;
-    step.covariance = moved.covariance;
-    step.scan_covariance = Matrix3d::Identity() * kUntoldVariance;
-    noise_.setZero();
-    scan_noise_.setZero();
+    begin(moved, step);
   } else {
-    const Matrix3d spread = in_world(pose_, moved.covariance);
-    Matrix3d by_pose = Matrix3d::Identity();
-    const Pose2 guessed = compose(pose_, moved.pose);
-    by_pose(0, 2) = -(guessed - pose_).y();
-    by_pose(1, 2) = (guessed - pose_).x();
-    const MatchGuess guess{
-        .pose = guessed,
-        .covariance = by_pose * noise_ * by_pose.transpose() + spread,
-        .most_penalty = motion ? std::numeric_limits<double>::infinity() : kMostPenalty};
-    ScanMatch match = this->match(guess, motion.has_value());
-    const Twist2 seen = se2_log(between(pose_, match.pose)) / dt;
-    if (scanner_.scan_time > 0.0 &&
-        ((seen - twist) * scanner_.scan_time).cwiseAbs().maxCoeff() > kSkew &&
-        match.status == MatchStatus::kConverged) {
-      read_scan(scanner_, ranges, seen, scan_);
-      match = this->match(
-          {.pose = match.pose, .covariance = guess.covariance, .most_penalty = guess.most_penalty},
-          true);
-    }
-    step.match = match;
-    const bool found =
-        match.status == MatchStatus::kConverged || match.status == MatchStatus::kIterationLimit;
-    step.status = !found               ? LaserStatus::kLost
-                  : seems_still(match) ? LaserStatus::kStill
-                                       : LaserStatus::kTracking;
-    const Pose2 before = pose_;
-    const Pose2 now = step.status == LaserStatus::kStill ? pose_ : match.pose;
-    step.motion = between(before, now);
-    // Along what no scan tells the motion is as uncertain as its guess; the pose, in the map, as
-    // all guesses since something told.
-    const Matrix3d guessed_only = Matrix3d::Identity() - match.told;
-    step.covariance = motion_covariance(before, match.told * noise_ * match.told.transpose(), now,
-                                        match.told * match.covariance * match.told.transpose() +
-                                            guessed_only * spread * guessed_only.transpose());
-    step.scan_covariance = motion_covariance(before, scan_noise_, now, match.scan_covariance);
-    pose_ = now;
-    noise_ = match.covariance;
-    scan_noise_ = match.scan_covariance;
-    twist_ = found ? Twist2(se2_log(step.motion) / dt) : twist_;
+    follow(find(ranges, guess_pose(moved, motion.has_value()), twist, dt), moved, step);
   }
   t_ = t;
   dt_ = dt;
   way_ += step.motion.head<2>().norm();
   step.pose = pose_;
   if (step.status == LaserStatus::kLost) {
-    if (++lost_ >= options_.lost_limit && !scan_.empty()) {
-      map_.clear();
-      keyframe_ = pose_;
-      map_.insert(scan_, pose_, way_);
-      noise_.setZero();
-      scan_noise_.setZero();
-      step.keyframe = true;
-      lost_ = 0;
-    }
+    count_lost(step);
     return step;
   }
   lost_ = 0;

@@ -10,6 +10,7 @@
 #include <Eigen/LU>
 
 #include "thing_kin/core/error.hpp"
+#include "thing_kin/linalg/spd.hpp"
 #include "thing_kin/odometry/correlative_search.hpp"
 
 namespace thing_kin {
@@ -267,6 +268,10 @@ void write_covariance(const Matrix3d& B, const Directions& told, const Matrix3d&
   const auto in_units = [&](const Matrix3d& scaled) {
     Matrix3d out = told.scale.asDiagonal() * scaled * told.scale.asDiagonal();
     out = (0.5 * (out + out.transpose())).eval();
+    if (!is_positive(out)) {
+      const Vector3d sizes = out.diagonal().cwiseMax(0.0);
+      keep_positive(out, sizes);
+    }
     return out;
   };
   match.covariance = in_units(P);
@@ -314,13 +319,13 @@ void check_match_options(const MatchOptions& options) {
   }
 }
 
-ScanMatch match_scan(const LocalMap& map, const PlanarScan& whole, const MatchGuess& guess,
+ScanMatch match_scan(const LocalMap& map, const PlanarScan& scan, const MatchGuess& guess,
                      std::span<const Pose2> starts, double noise, const MatchOptions& options) {
-  const PlanarScan scan = thinned_scan(whole, options.max_points);
-  if (scan.size() < 3 || map.surfels().empty()) {
+  const PlanarScan thinned = thinned_scan(scan, options.max_points);
+  if (thinned.size() < 3 || map.surfels().empty()) {
     return without_match(guess, MatchStatus::kTooFewPoints);
   }
-  const Matcher matcher(map, scan, guess, options);
+  const Matcher matcher(map, thinned, guess, options);
   Fit best = matcher.fit(guess.pose);
   int iterations = best.iterations;
   const auto consider = [&](const Pose2& start, double factor) {
@@ -339,7 +344,7 @@ ScanMatch match_scan(const LocalMap& map, const PlanarScan& whole, const MatchGu
     const SearchWindow window{.center = guess.pose,
                               .translation = std::clamp(3.0 * sd.head<2>().maxCoeff(), 0.6, 2.0),
                               .rotation = std::min(6.0 * sd.z() + 0.3, std::numbers::pi)};
-    for (const SearchCandidate& candidate : correlative_search(map, whole, window, kCandidates)) {
+    for (const SearchCandidate& candidate : correlative_search(map, scan, window, kCandidates)) {
       consider(candidate.pose, kBetter);
     }
   }
@@ -359,12 +364,12 @@ ScanMatch match_scan(const LocalMap& map, const PlanarScan& whole, const MatchGu
     match.pose = best.pose;
     match.pose.z() = wrap_angle(match.pose.z());
     match.status = best.converged ? MatchStatus::kConverged : MatchStatus::kIterationLimit;
-    write_covariance(spread_of(map, scan, best, noise), told, guess.covariance, match);
+    write_covariance(spread_of(map, thinned, best, noise), told, guess.covariance, match);
   }
   match.fitness = fitness;
-  match.inliers = static_cast<double>(best.normal.inliers) / static_cast<double>(scan.size());
+  match.inliers = static_cast<double>(best.normal.inliers) / static_cast<double>(thinned.size());
   match.residual = std::sqrt(best.normal.squares / std::max(best.normal.inliers, 1));
-  match.points = static_cast<int>(scan.size());
+  match.points = static_cast<int>(thinned.size());
   match.iterations = iterations;
   match.searched = search;
   return match;

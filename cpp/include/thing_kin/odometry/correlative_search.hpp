@@ -1,6 +1,6 @@
 #pragma once
 
-#include <span>
+#include <numbers>
 #include <vector>
 
 #include "thing_kin/odometry/local_map.hpp"
@@ -11,7 +11,7 @@ namespace thing_kin {
 struct SearchWindow {
   Pose2 center = Pose2::Zero();
   double translation = 0.6;
-  double rotation = 3.141592653589793;
+  double rotation = std::numbers::pi;
 };
 
 struct SearchCandidate {

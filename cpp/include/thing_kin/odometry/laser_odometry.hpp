@@ -62,6 +62,12 @@ class LaserOdometry {
  private:
   PlanarEstimate guess_motion(double dt, const std::optional<PlanarEstimate>& motion) const;
   ScanMatch match(const MatchGuess& guess, bool guided) const;
+  MatchGuess guess_pose(const PlanarEstimate& moved, bool measured) const;
+  ScanMatch find(std::span<const double> ranges, const MatchGuess& guess, const Twist2& twist,
+                 double dt);
+  void begin(const PlanarEstimate& moved, LaserStep& step);
+  void follow(const ScanMatch& match, const PlanarEstimate& moved, LaserStep& step);
+  void count_lost(LaserStep& step);
   bool seems_still(const ScanMatch& match) const;
   void keep(LaserStep& step);
 
