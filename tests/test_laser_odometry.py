@@ -1,5 +1,6 @@
 """Drives followed by scans: drift, standstill, losses bridged, time that goes backwards."""
 
+import threading
 from dataclasses import replace
 
 import numpy as np
@@ -255,3 +256,29 @@ def test_a_map_that_is_nothing_like_the_scan_is_lost_and_then_found():
     assert status[0] != "still"
     assert status[-1] in ("tracking", "lost")
     assert np.isfinite(lidar.poses).all()
+
+
+def test_it_may_be_read_while_another_thread_adds():
+    lidar = odometry.LaserOdometry(scanner_of(NARROW))
+    run = record(FAMILIES["room"](RNG(1)), NARROW, RNG(1), 5.0, 10.0)
+    done = threading.Event()
+
+    def add_all():
+        for t, scan in zip(run.times, run.scans, strict=True):
+            lidar.add(scan, t=t)
+        done.set()
+
+    worker = threading.Thread(target=add_all)
+    worker.start()
+    seen = 0
+    while not done.is_set():
+        poses, points = lidar.poses, lidar.map_points
+        assert np.isfinite(poses).all()
+        assert np.isfinite(points).all()
+        assert len(poses) >= seen
+        seen = len(poses)
+    worker.join()
+    alone = odometry.LaserOdometry(scanner_of(NARROW))
+    for t, scan in zip(run.times, run.scans, strict=True):
+        alone.add(scan, t=t)
+    np.testing.assert_array_equal(lidar.poses, alone.poses)

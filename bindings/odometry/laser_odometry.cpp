@@ -31,7 +31,14 @@ const char* status_name(LaserStatus status) {
 struct Track {
   LaserOdometry odometry;
   std::vector<Pose2> poses;
-  std::mutex busy;
+  mutable std::mutex busy;
+
+  // A copy, made while nothing changes it.
+  template <typename Get>
+  auto look(const Get& get) const {
+    const std::scoped_lock lock(busy);
+    return get();
+  }
 
   Track(const Scanner& scanner, const LaserOdometryOptions& options) : odometry(scanner, options) {}
 };
@@ -234,17 +241,21 @@ Examples
       .def_property_readonly(
           "poses",
           [](const Track& self) {
-            return rows(self.poses.size(), 3,
-                        [&](std::size_t i) -> const Pose2& { return self.poses[i]; });
+            const std::vector<Pose2> poses = self.look([&] { return self.poses; });
+            return rows(poses.size(), 3, [&](std::size_t i) -> const Pose2& { return poses[i]; });
           },
           "(k, 3), m and rad: of the robot at each scan; the first is zero.")
       .def_property_readonly(
-          "pose", [](const Track& self) { return to_array(self.odometry.pose()); },
+          "pose",
+          [](const Track& self) {
+            return to_array(self.look([&] { return Pose2(self.odometry.pose()); }));
+          },
           "(3,), m and rad: the last.")
       .def_property_readonly(
           "map_points",
           [](const Track& self) {
-            const std::vector<Surfel>& surfels = self.odometry.map().surfels();
+            const std::vector<Surfel> surfels =
+                self.look([&] { return self.odometry.map().surfels(); });
             return rows(surfels.size(), 2,
                         [&](std::size_t i) -> const Eigen::Vector2d& { return surfels[i].p; });
           },
@@ -252,7 +263,8 @@ Examples
       .def_property_readonly(
           "map_normals",
           [](const Track& self) {
-            const std::vector<Surfel>& surfels = self.odometry.map().surfels();
+            const std::vector<Surfel> surfels =
+                self.look([&] { return self.odometry.map().surfels(); });
             return rows(surfels.size(), 2,
                         [&](std::size_t i) -> const Eigen::Vector2d& { return surfels[i].normal; });
           },
@@ -260,7 +272,8 @@ Examples
       .def_property_readonly(
           "scanner", [](const Track& self) { return self.odometry.scanner(); }, "The scanner.")
       .def("__repr__", [](const Track& self) {
-        return "<LaserOdometry of " + std::to_string(self.poses.size()) + " scans>";
+        const std::size_t scans = self.look([&] { return self.poses.size(); });
+        return "<LaserOdometry of " + std::to_string(scans) + " scans>";
       });
 }
 
