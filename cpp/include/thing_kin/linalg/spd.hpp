@@ -38,9 +38,9 @@ bool is_positive(const MatrixView& A) noexcept;
 /// `most` would not do.
 bool keep_positive(MatrixSpan A, double most = kMostInflation) noexcept;
 
-/// The same for an A that is a sum in which much may have cancelled, its variances too: they grow by
-/// a fraction of `sizes`, (n), what the sum of the terms' sizes is. Always possible for finite numbers
-/// and sizes > 0.
+/// The same for an A that is a sum in which much may have cancelled, its variances too: they grow
+/// by a fraction of `sizes`, (n), what the sum of the terms' sizes is. Always possible for finite
+/// numbers and sizes > 0.
 bool keep_positive(MatrixSpan A, const VectorView& sizes) noexcept;
 
 /// L <- the lower Cholesky factor of A, L L^T = A; L may be A. False, and L is anything, unless A
