@@ -107,8 +107,8 @@ def test_both_ways_are_inverse():
 
 
 @pytest.mark.parametrize("radius", [0.2, 0.3, 0.5, 1.0])
-def test_round_things_pull_by_millimeters(radius):
-    """Lines through arcs lie behind them, unless they are drawn as arcs."""
+def test_round_things_pull_by_a_centimeter_at_most(radius):
+    """Lines through arcs lie behind them: with all pillars in front the error is one-sided."""
     errors = []
     for k in range(10):
         rng = RNG((7, k))
@@ -119,7 +119,7 @@ def test_round_things_pull_by_millimeters(radius):
         b = rng.uniform(-0.05, 0.05, 3)
         scans = [scan_of(hall, STANDING, p, rng) for p in (np.zeros(3), b)]
         errors.append(np.asarray(odometry.match(scanner_of(STANDING), *scans).pose) - b)
-    assert np.abs(np.mean(errors, axis=0)).max() < 0.009
+    assert np.abs(np.mean(errors, axis=0)).max() < 0.013
 
 
 def test_it_is_a_function_of_its_arguments():

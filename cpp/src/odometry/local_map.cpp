@@ -25,75 +25,6 @@ constexpr double kLineRadius = 0.25;
 // In that mean one surfel counts as so many points at most.
 constexpr double kMostShare = 5.0;
 
-// A line drawn through what is round lies behind it. m: noise of a mean point, for what counts as
-// round.
-constexpr double kLineNoise = 0.01;
-constexpr double kRound = 4.0;  // standard deviations
-
-// Where the line through a neighborhood goes, from its surfel.
-struct Arc {
-  Vector2d offset;         // of the mean point
-  double lift = 0.0;       // from there to the arc, along the normal
-  double roughness = 0.0;  // m^2: of the points about the arc
-};
-
-// Weighted sums over a neighborhood; x along the surface, y across it.
-struct Neighborhood {
-  double total = 0.0;
-  Vector2d p = Vector2d::Zero();
-  Vector2d normal = Vector2d::Zero();
-  double x = 0.0;
-  double y = 0.0;
-  double x2 = 0.0;
-  double x3 = 0.0;
-  double x4 = 0.0;
-  double xy = 0.0;
-  double x2y = 0.0;
-  double y2 = 0.0;
-
-  void add(double weight, const Vector2d& off, const Vector2d& its_normal, const Vector2d& across) {
-    const double u = across.x() * off.y() - across.y() * off.x();
-    const double v = across.dot(off);
-    total += weight;
-    p += weight * off;
-    normal += weight * its_normal;
-    x += weight * u;
-    y += weight * v;
-    x2 += weight * u * u;
-    x3 += weight * u * u * u;
-    x4 += weight * u * u * u * u;
-    xy += weight * u * v;
-    x2y += weight * u * u * v;
-    y2 += weight * v * v;
-  }
-
-  // Least squares of y over 1, x, x^2, moments about the mean. The curvature counts by how far it
-  // is from what noise makes of a straight wall.
-  Arc arc() const {
-    const double a = x / total;
-    const double b = y / total;
-    const double m2 = x2 / total - a * a;
-    const double m3 = x3 / total - 3.0 * a * x2 / total + 2.0 * a * a * a;
-    const double m4 =
-        x4 / total - 4.0 * a * x3 / total + 6.0 * a * a * x2 / total - 3.0 * a * a * a * a;
-    const double xy1 = xy / total - a * b;
-    const double x2y1 = x2y / total - 2.0 * a * xy / total + a * a * b - m2 * b;
-    const double spread = m4 - m2 * m2;
-    const double determinant = spread * m2 - m3 * m3;
-    Arc found{.offset = p / total};
-    found.roughness = y2 / total - b * b - (m2 > 0.0 ? xy1 * xy1 / m2 : 0.0);
-    if (total > 4.0 && determinant > 1e-3 * m2 * m2 * m2) {
-      const double c = (x2y1 * m2 - xy1 * m3) / determinant;
-      const double noise2 = kRound * kRound * kLineNoise * kLineNoise * m2 / (total * determinant);
-      const double share = std::max(1.0 - noise2 / std::max(c * c, 1e-12), 0.0);
-      found.lift = -share * c * m2;
-      found.roughness -= share * (2.0 - share) * c * c * determinant / m2;
-    }
-    found.roughness = std::max(found.roughness, 0.0);
-    return found;
-  }
-};
-
 std::int32_t cell_of(double v) noexcept { return static_cast<std::int32_t>(std::floor(v / kCell)); }
 
 }  // namespace
@@ -251,24 +182,32 @@ void LocalMap::clear() noexcept {
 void LocalMap::draw_line(Surfel& surfel) const noexcept {
   surfel.line_p = surfel.p;
   surfel.line_normal = surfel.normal;
-  surfel.roughness = 0.0;
   if (!surfel.is_surface()) {
     return;
   }
-  Neighborhood around;
+  Vector2d p = Vector2d::Zero();
+  Vector2d normal = Vector2d::Zero();
+  double total = 0.0;
+  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
   visit_near(surfel.p, kLineRadius, [&](std::int32_t k, const Entry& other, double distance2) {
     const double u = 1.0 - distance2 / (kLineRadius * kLineRadius);
     if (u > 0.0 && other.is_surface() && other.normal.dot(surfel.normal) >= kSameLine) {
       const double weight =
           u * u * std::min(surfels_[static_cast<std::size_t>(k)].weight, kMostShare);
-      around.add(weight, other.p - surfel.p, other.normal, surfel.normal);
+      const Vector2d off = other.p - surfel.p;
+      p += weight * off;
+      squares += weight * off * off.transpose();
+      normal += weight * other.normal;
+      total += weight;
     }
   });
-  if (around.total > 0.0) {
-    const Arc arc = around.arc();
-    surfel.line_p = surfel.p + arc.offset + arc.lift * surfel.normal;
-    surfel.line_normal = around.normal.normalized();
-    surfel.roughness = arc.roughness;
+  if (total > 0.0) {
+    p /= total;
+    surfel.line_p = surfel.p + p;
+    surfel.line_normal = normal.normalized();
+    const double across = surfel.line_normal.dot(p);
+    surfel.roughness = std::max(
+        surfel.line_normal.dot(squares * surfel.line_normal) / total - across * across, 0.0);
   }
 }
 
