@@ -1,5 +1,6 @@
 """The fiducial-interception experiment of [X21], chapters 4 and 5."""
 
+from thing_kin._search import ManipulatorArm, WorldRun
 from thing_kin.rmma.arrangement import ARRANGEMENTS, Arrangement
 from thing_kin.rmma.experiment import CONFIGS, Config, WorldLike, run, trace
 from thing_kin.rmma.result import Result, Spread
@@ -13,6 +14,7 @@ __all__ = [
     "CONFIGS",
     "Arrangement",
     "Config",
+    "ManipulatorArm",
     "Result",
     "SearchTrace",
     "SideTrace",
@@ -22,6 +24,7 @@ __all__ = [
     "Trace",
     "World",
     "WorldLike",
+    "WorldRun",
     "named_worlds",
     "run",
     "sweep",
