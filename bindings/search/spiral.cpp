@@ -15,11 +15,12 @@ void bind_spiral(py::module_& m) {
       [](const ArrayLike& center, double gap, std::optional<double> spacing,
          std::optional<double> radius, const py::object& count) {
         const SpiralOptions standard;
-        return points_array(spiral_points(read_point(center, "center"),
-                                          {.gap = gap,
-                                           .spacing = spacing.value_or(gap),
-                                           .radius = radius.value_or(standard.radius),
-                                           .count = read_count(count, "count", standard.count)}));
+        return points_array(spiral_points(
+            read_point(center, "center"),
+            {.gap = gap,
+             .spacing = spacing.value_or(gap),
+             .radius = radius.value_or(standard.radius),
+             .count = count.is_none() ? standard.count : read_count(count, "count", 0)}));
       },
       py::arg("center"), py::arg("gap"), py::arg("spacing") = py::none(),
       py::arg("radius") = py::none(), py::arg("count") = py::none(),

@@ -23,11 +23,11 @@ void check_spiral(const Eigen::Vector2d& center, const SpiralOptions& options) {
   if (!(options.radius >= 0.0)) {
     throw InvalidArgument("radius", text(options.radius), "a number of metres >= 0");
   }
-  if (options.count < 1 || options.count > kMostSearchPoints) {
-    throw InvalidArgument("count", std::to_string(options.count), "1 to 1000000");
-  }
-  if (options.count == kMostSearchPoints && std::isinf(options.radius)) {
+  if (!options.count && std::isinf(options.radius)) {
     throw InvalidArgument("count", "no count and no radius", "one of them: a spiral has no end");
+  }
+  if (options.count && (*options.count < 1 || *options.count > kMostSearchPoints)) {
+    throw InvalidArgument("count", std::to_string(*options.count), "1 to 1000000");
   }
 }
 
@@ -40,7 +40,7 @@ SearchPoints spiral_points(const Eigen::Vector2d& center, const SpiralOptions& o
   // r grows with th: the first point beyond the radius is the last of all.
   for (double th = 0.9 * 2.0 * std::numbers::pi;; th += options.spacing / std::hypot(b * th, b)) {
     const double r = b * th;
-    if (points.size() >= options.count || r > options.radius) {
+    if ((options.count && points.size() >= *options.count) || r > options.radius) {
       return points;
     }
     if (points.size() >= kMostSearchPoints) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -17,7 +18,7 @@ struct SpiralOptions {
   double gap = 0.0;      ///< m between neighbouring turns, > 0
   double spacing = 0.0;  ///< m along the spiral from point to point, > 0
   double radius = std::numeric_limits<double>::infinity();  ///< m: what lies beyond is dropped
-  std::size_t count = kMostSearchPoints;                    ///< at most; one of the two must end it
+  std::optional<std::size_t> count;                         ///< at most; one of the two must end it
 };
 
 /// Evenly spaced points on an Archimedean spiral about `center`, counter-clockwise, [X21] 2.2:
