@@ -108,7 +108,8 @@ class Result:
     options: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        """Shapes that fit."""
+        """Shapes that fit; options that can go to another process."""
+        object.__setattr__(self, "options", dict(self.options))
         expected = (len(self.velocities), *self.intercepted.shape[1:2], len(self.registered))
         for name in PER_SEARCH:
             shape = getattr(self, name).shape
@@ -126,11 +127,19 @@ class Result:
         """Arrangement, method and configuration in words."""
         name = str(self.arrangement.name)
         words = [name if "arrangement" in name else f"arrangement {name}", self.method]
-        if self.options.get("config") is not None:
-            words.append(f"configuration {self.options['config']}")
+        if "config" in self.options:
+            words.append(f"configuration {self.config or 'of its own'}")
         if self.method == "covering" and self.options.get("odometry") is not None:
             words.append(f"odometry {self.options['odometry']}")
         return ", ".join(words)
+
+    @property
+    def config(self) -> int | None:
+        """Number of the filter's configuration in [X21] Tables 5.3 to 5.5, if it is one of them."""
+        from thing_kin.rmma.experiment import CONFIGS
+
+        told = self.options.get("config")
+        return next((number for number, config in CONFIGS.items() if config == told), None)
 
     @property
     def runs(self) -> int:
