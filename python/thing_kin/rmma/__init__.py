@@ -1,0 +1,29 @@
+"""The fiducial-interception experiment of [X21], chapters 4 and 5."""
+
+from thing_kin.rmma.arrangement import ARRANGEMENTS, Arrangement
+from thing_kin.rmma.experiment import CONFIGS, Config, WorldLike, run, trace
+from thing_kin.rmma.result import Result, Spread
+from thing_kin.rmma.sweeps import Sweep, SweepEntry, sweep
+from thing_kin.rmma.traces import SearchTrace, SideTrace, Trace
+from thing_kin.rmma.world import World
+from thing_kin.rmma.worlds import named_worlds
+
+__all__ = [
+    "ARRANGEMENTS",
+    "CONFIGS",
+    "Arrangement",
+    "Config",
+    "Result",
+    "SearchTrace",
+    "SideTrace",
+    "Spread",
+    "Sweep",
+    "SweepEntry",
+    "Trace",
+    "World",
+    "WorldLike",
+    "named_worlds",
+    "run",
+    "sweep",
+    "trace",
+]
