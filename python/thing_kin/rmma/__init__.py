@@ -2,6 +2,7 @@
 
 from thing_kin.rmma.arrangement import ARRANGEMENTS, Arrangement
 from thing_kin.rmma.experiment import CONFIGS, Config, WorldLike, run, trace
+from thing_kin.rmma.practices import Practice, practice
 from thing_kin.rmma.result import Result, Spread
 from thing_kin.rmma.sweeps import Sweep, SweepEntry, sweep
 from thing_kin.rmma.traces import SearchTrace, SideTrace, Trace
@@ -13,6 +14,7 @@ __all__ = [
     "CONFIGS",
     "Arrangement",
     "Config",
+    "Practice",
     "Result",
     "SearchTrace",
     "SideTrace",
@@ -23,6 +25,7 @@ __all__ = [
     "World",
     "WorldLike",
     "named_worlds",
+    "practice",
     "run",
     "sweep",
     "trace",
