@@ -62,15 +62,22 @@ def animate_rmma_run(trace: Trace, path: str | Path, *, frames: int = 120, fps: 
     return Path(path)
 
 
-def tool_at(side: SideTrace, t: float) -> Array | None:
+def tool_at(side: SideTrace, t: float) -> Array:
     """Tool in the side's frame at a time: at a search's last stop, or between two searches.
 
-    Between them the arm moves evenly, seen from the base. None before the first search.
+    Between them, and from the registered fiducial to the first, the arm moves evenly, seen from the
+    base.
     """
     searches = [search for search in side.searches if len(search.stops)]
     begun = [search for search in searches if search.stop_times[0] <= t]
     if not begun:
-        return None
+        registered = _relative(side.base[0], side.fiducials[0])
+        if not searches:
+            return _from_base(_pose_at(side, t), registered)
+        start = searches[0].stop_times[0]
+        share = (t - side.times[0]) / max(start - side.times[0], 1e-9)
+        moved = registered + share * (_in_base(searches[0], 0) - registered)
+        return _from_base(_pose_at(side, t), moved)
     last = begun[-1]
     stop = int(np.searchsorted(last.stop_times, t, side="right")) - 1
     if t <= last.end or len(begun) == len(searches):
@@ -90,9 +97,12 @@ def _carried(side: SideTrace, search: SearchTrace, stop: int, t: float) -> Array
 
 
 def _in_base(search: SearchTrace, stop: int) -> Array:
-    x, y, theta = search.base_at_stops[stop]
-    c, s = np.cos(theta), np.sin(theta)
-    u: Array = np.array([[c, s], [-s, c]]) @ (search.stops[stop] - (x, y))
+    return _relative(search.base_at_stops[stop], search.stops[stop])
+
+
+def _relative(pose: Array, point: Array) -> Array:
+    c, s = np.cos(pose[2]), np.sin(pose[2])
+    u: Array = np.array([[c, s], [-s, c]]) @ (point - pose[:2])
     return u
 
 
@@ -158,7 +168,7 @@ class _Scene:
         side = self.trace.sides[k]
         pose, tool = _pose_at(side, t), tool_at(side, t)
         way = side.to_map(side.base[side.times <= t, :2])
-        arm: Any = [] if tool is None else side.to_map(np.vstack([pose[:2], tool]))
+        arm = side.to_map(np.vstack([pose[:2], tool]))
         return {
             "way": way,
             "body": side.to_map(body_corners(pose)),

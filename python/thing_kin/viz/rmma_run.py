@@ -99,8 +99,9 @@ def plot_rmma_run(trace: Trace, *, detection_radius: float | None = None) -> Fig
         axes = figure.add_subplot(grid[1 + k // PANELS_IN_A_ROW, k % PANELS_IN_A_ROW])
         _draw_search(axes, side, search, detection_radius)
         name = number[id(side)] + search.fiducial + 1
-        told = f"{len(search.stops)} stops, {search.end - search.start:.1f} s"
-        axes.set_title(f"fiducial {name}: {told}", fontsize=8)
+        stops = "1 stop" if len(search.stops) == 1 else f"{len(search.stops)} stops"
+        told = f"{stops}, {search.end - search.start:.1f} s"
+        axes.set_title(f"fiducial {name}\n{told}", fontsize=8)
         if k % PANELS_IN_A_ROW == 0:
             axes.set_ylabel("mm")
     return figure

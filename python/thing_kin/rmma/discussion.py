@@ -1,0 +1,292 @@
+"""What matches the thesis and what does not, worked out from the results."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import isfinite, sqrt
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from thing_kin.rmma import reference, thesis
+from thing_kin.rmma.intervals import wilson
+from thing_kin.rmma.tables import ten_runs
+
+if TYPE_CHECKING:
+    from thing_kin.rmma.result import Result
+    from thing_kin.rmma.sweeps import Sweep
+    from thing_kin.rmma.thesis import Measures
+
+    Results = Mapping[tuple[int, str, int | None], Result]
+
+NOISE = 2.0  # a difference of less standard deviations of ten runs is none
+LEVEL = 0.999  # of the intervals that checks allow for
+COVERING_RATE, COVERING_TIME = 0.995, 0.25  # in each cell of the standard world
+COVERING_RATE_ELSEWHERE = 0.99
+HARD_WORLDS = ("drift x2", "creep 0.4 mm/s", "map error 5 mm", "map error 10 mm")
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A statement, whether it holds, and the numbers it rests on."""
+
+    statement: str
+    holds: bool
+    evidence: str
+
+    def __str__(self) -> str:
+        return f"{'yes' if self.holds else 'NO '}  {self.statement}: {self.evidence}"
+
+
+@dataclass(frozen=True)
+class Trend:
+    """Change of the rate from the slowest to the fastest velocity, and its standard error."""
+
+    change: float
+    error: float
+
+    @property
+    def word(self) -> str:
+        """Falls, rises, or neither beyond two standard errors."""
+        if abs(self.change) <= 2 * self.error:
+            return "is level"
+        return "falls" if self.change < 0 else "rises"
+
+    def __str__(self) -> str:
+        return f"{self.word} ({100 * self.change:+.1f} +- {100 * self.error:.1f} points)"
+
+
+def trend(result: Result) -> Trend:
+    """Fit a line to the rate by velocity, runs being independent."""
+    v = result.velocities - result.velocities.mean()
+    weights = v / (v @ v) * (result.velocities.max() - result.velocities.min())
+    rates = result.intercepted.mean(axis=2)
+    runs = result.runs
+    variance = rates.var(axis=1, ddof=1) / runs if runs > 1 else np.full(len(v), np.inf)
+    return Trend(float(weights @ rates.mean(axis=1)), float(np.sqrt(weights**2 @ variance)))
+
+
+def discuss(results: Results, worlds: Sweep) -> list[Finding]:
+    """Return all findings, the thesis's own arithmetic first."""
+    return [
+        _identity(),
+        *_table_5_2(results),
+        _linear(results),
+        *_configurations(results),
+        *_trends(results),
+        *_against_spiral(results),
+        _position_error(results),
+        _met(results),
+        _covering(results),
+        *_elsewhere(worlds),
+    ]
+
+
+def checks(results: Results, worlds: Sweep) -> dict[str, bool]:
+    """Return what this library must show; what so few runs cannot tell passes."""
+    held = {
+        f"reference simulation met: #{key[0]} {key[1]}"
+        + (f", configuration {key[2]}" if key[2] else ""): _meets(result, key)
+        for key, result in results.items()
+        if key in reference.READINGS
+    }
+    for k in (1, 2, 3):
+        t = trend(results[k, "ukf", thesis.TABLE_5_2_CONFIGURATION[k]])
+        held[f"the UKF's rate falls with velocity on #{k}"] = t.change - 3 * t.error < 0
+        covering = results[k, "covering", None]
+        cells = [covering.at_velocity(float(v)) for v in covering.velocities]
+        name = f"covering on #{k}: 99.5 % and 0.25 s at each velocity"
+        held[name] = all(_reaches(c, COVERING_RATE, COVERING_TIME) for c in cells)
+    for entry in worlds.select(method="covering"):
+        if entry.world in HARD_WORLDS:
+            name = f"covering on {entry.arrangement}: 99 % with {entry.world}"
+            held[name] = _reaches(entry.result, COVERING_RATE_ELSEWHERE, np.inf)
+    return held
+
+
+def _identity() -> Finding:
+    gaps = [
+        abs(thesis.rate_from_fiducials(*key) - row.interception_rate)
+        for key, row in thesis.TABLE_5_2.items()
+    ]
+    return Finding(
+        "the thesis's rates count the registered fiducials as intercepted",
+        max(gaps) < 5.1e-5,
+        "all six rates of Table 5.2 are those of Tables 5.6 to 5.8 with the registered added, "
+        f"to {100 * max(gaps):.3f} points",
+    )
+
+
+def _table_5_2(results: Results) -> list[Finding]:
+    found = []
+    for (arrangement, method), printed in thesis.TABLE_5_2.items():
+        config = thesis.TABLE_5_2_CONFIGURATION[arrangement] if method == "ukf" else None
+        result = results[arrangement, method, config]
+        found.append(_compare(f"{method} on #{arrangement} matches the thesis", result, printed))
+    return found
+
+
+def _linear(results: Results) -> Finding:
+    printed = thesis.TABLE_5_1["linear_kf"]
+    return _compare("linear_kf on #1 matches the thesis", results[1, "linear_kf", 6], printed)
+
+
+def _compare(statement: str, result: Result, printed: Measures) -> Finding:
+    """Within the noise of ten runs in rate and time; the error is told, and not asked for."""
+    sd = ten_runs(result)
+    rate = result.interception_rate - printed.interception_rate
+    time = result.search_time - printed.search_time
+    told = f"rate {100 * rate:+.1f} points{_in_sd(rate, sd[0])}"
+    told += f", time {time:+.2f} s{_in_sd(time, sd[1])}"
+    error = result.position_error - printed.position_error
+    if isfinite(error):
+        told += f", position error {1e3 * error:+.1f} mm{_in_sd(error, sd[2])}"
+    holds = abs(rate) <= NOISE * sd[0] and abs(time) <= NOISE * sd[1]
+    return Finding(statement + f" within {NOISE:g} sd of ten runs", holds, told)
+
+
+def _in_sd(difference: float, sd: float) -> str:
+    return f" ({abs(difference) / sd:.1f} sd)" if isfinite(sd) and sd > 0 else ""
+
+
+def _configurations(results: Results) -> list[Finding]:
+    found = []
+    for k in (1, 2, 3):
+        rows = {
+            config: results[k, "ukf", config].interception_rate - printed.interception_rate
+            for (arrangement, config), printed in thesis.TABLES_5_3_TO_5_5.items()
+            if arrangement == k
+        }
+        scatter = max(ten_runs(results[k, "ukf", config])[0] for config in rows)
+        low, high = min(rows.values()), max(rows.values())
+        one_sided = low > NOISE * scatter or high < -NOISE * scatter
+        told = f"differences of {100 * low:+.1f} to {100 * high:+.1f} points"
+        if one_sided:
+            told += ": all on one side, which no scatter of ten runs explains"
+        within = [c for c, difference in rows.items() if abs(difference) <= NOISE * scatter]
+        told += f"; within {NOISE:g} sd: " + (", ".join(map(str, within)) or "none")
+        statement = f"the UKF's {len(rows)} configurations on #{k} scatter about the thesis's"
+        found.append(Finding(statement, not one_sided, told))
+    return found
+
+
+def _trends(results: Results) -> list[Finding]:
+    ukf = {k: trend(results[k, "ukf", thesis.TABLE_5_2_CONFIGURATION[k]]) for k in (1, 2, 3)}
+    falls = Finding(
+        "the UKF's rate falls with velocity in every arrangement, as in [X21] 5.7",
+        all(t.word == "falls" for t in ukf.values()),
+        ", ".join(f"#{k} {t}" for k, t in ukf.items()),
+    )
+    linear = trend(results[1, "linear_kf", 6])
+    rises = Finding(
+        "the linear filter's rate rises with velocity, as in [X21] 5.7",
+        linear.word == "rises",
+        f"#1 {linear}; drift by the way rather than by the time cannot make it rise",
+    )
+    return [falls, rises]
+
+
+def _against_spiral(results: Results) -> list[Finding]:
+    found = []
+    for k in (1, 2, 3):
+        ukf = results[k, "ukf", thesis.TABLE_5_2_CONFIGURATION[k]]
+        spiral = results[k, "spiral", None]
+        noise = sqrt(ten_runs(ukf)[0] ** 2 + ten_runs(spiral)[0] ** 2)
+        printed = (
+            thesis.TABLE_5_2[k, "ukf"].interception_rate
+            - thesis.TABLE_5_2[k, "spiral"].interception_rate
+        )
+        ours = ukf.interception_rate - spiral.interception_rate
+        found.append(
+            Finding(
+                f"the thesis's UKF and spiral differ in rate on #{k} by more than its ten runs "
+                "scatter",
+                abs(printed) > NOISE * noise,
+                f"{100 * printed:+.1f} points, sd {100 * noise:.1f}; here {100 * ours:+.1f}",
+            )
+        )
+    return found
+
+
+def _position_error(results: Results) -> Finding:
+    told, lower = [], []
+    for k in (1, 2, 3):
+        ukf = results[k, "ukf", thesis.TABLE_5_2_CONFIGURATION[k]].position_error
+        spiral = results[k, "spiral", None].position_error
+        printed = thesis.TABLE_5_2[k, "ukf"].position_error, thesis.TABLE_5_2[k, "spiral"]
+        thesis_gap = printed[0] - printed[1].position_error
+        lower.append(ukf < spiral)
+        told.append(f"#{k} {1e3 * (ukf - spiral):+.1f} mm (thesis {1e3 * thesis_gap:+.1f})")
+    return Finding(
+        "the UKF's position error is below the spiral's in every arrangement, as [X21] 5.7 says",
+        all(lower),
+        ", ".join(told) + "; failed searches count too, and there the error is large",
+    )
+
+
+def _met(results: Results) -> Finding:
+    known = {key: result for key, result in results.items() if key in reference.READINGS}
+    missed = [
+        f"#{key[0]} {key[1]}" + (f" {key[2]}" if key[2] else "")
+        for key, result in known.items()
+        if not reference.is_met(
+            result.interception_rate, result.search_time, reference.expected(*key)
+        )
+    ]
+    return Finding(
+        "the reference simulation's figures are met within 3 points and 15 % or 0.1 s",
+        not missed,
+        f"{len(known) - len(missed)} of {len(known)}"
+        + (f"; not {', '.join(missed)}" if missed else ""),
+    )
+
+
+def _covering(results: Results) -> Finding:
+    found = [results[k, "covering", None] for k in (1, 2, 3)]
+    rate = min(float(r.interception_rate_by_velocity.min()) for r in found)
+    time = max(float(r.search_time_by_velocity.max()) for r in found)
+    return Finding(
+        "the covering search has 99.5 % and 0.25 s in each of the arrangement-velocity cells",
+        rate >= COVERING_RATE and time <= COVERING_TIME,
+        f"at least {100 * rate:.2f} %, at most {time:.2f} s",
+    )
+
+
+def _elsewhere(worlds: Sweep) -> list[Finding]:
+    found = []
+    for name in dict.fromkeys(entry.world for entry in worlds):
+        rows = [entry.result for entry in worlds.select(method="covering", world=name)]
+        rate = min(r.interception_rate for r in rows)
+        time = max(r.search_time for r in rows)
+        found.append(
+            Finding(
+                f"the covering search has 99 % on every arrangement in the world '{name}'",
+                rate >= COVERING_RATE_ELSEWHERE,
+                f"at least {100 * rate:.1f} %, at most {time:.2f} s",
+            )
+        )
+    return found
+
+
+def _meets(result: Result, key: tuple[int, str, int | None]) -> bool:
+    """Whether the reference's tolerance and this result's interval meet."""
+    by = reference.expected(*key)
+    within = max(reference.TIME_TOLERANCE * by.search_time, reference.LEAST_TIME_TOLERANCE)
+    rates, times = (
+        result.interception_interval(LEVEL, unit="run"),
+        result.search_time_interval(LEVEL),
+    )
+    return _meet(rates, by.interception_rate, reference.RATE_TOLERANCE) and _meet(
+        times, by.search_time, within
+    )
+
+
+def _meet(interval: Sequence[float], middle: float, half: float) -> bool:
+    return interval[0] <= middle + half and interval[1] >= middle - half
+
+
+def _reaches(result: Result, rate: float, time: float) -> bool:
+    """Whether a rate and a time may well be reached: by the intervals' better ends."""
+    high = wilson(int(result.intercepted.sum()), result.intercepted.size, LEVEL)[1]
+    return high >= rate and result.search_time_interval(LEVEL)[0] <= time
