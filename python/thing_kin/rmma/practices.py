@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from itertools import product
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 
 from thing_kin.rmma.experiment import VELOCITIES
 from thing_kin.rmma.layout import columns, number, percent
+from thing_kin.rmma.records import write_csv
 from thing_kin.rmma.sweeps import progress_bar, spawned_processes, sweep
 from thing_kin.rmma.world import World
 from thing_kin.rmma.worlds import DRIFT, scaled
@@ -116,6 +118,29 @@ class Practice:
             best = self.methods[chosen] + ("" if enough else " (below 99 %)")
             rows.append([f"{1e3 * self.radii[i]:g} mm", f"x{self.drifts[j]:g}", *cells, best])
         return columns(["radius", "drift", *self.methods, "to take"], rows)
+
+    def to_csv(self, path: str | Path) -> Path:
+        """Write a row for each method, radius and drift, SI units.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> from concurrent.futures import ThreadPoolExecutor
+        >>> from thing_kin import rmma
+        >>> with ThreadPoolExecutor() as pool, tempfile.TemporaryDirectory() as folder:
+        ...     practice = rmma.practice(radii=(0.012,), drifts=(1.0,), runs=2, executor=pool)
+        ...     len(practice.to_csv(folder + "/practice.csv").read_text().splitlines())
+        7
+        """
+        m, i, j = (index.ravel() for index in np.indices(self.rates.shape))
+        rows = {
+            "method": [self.methods[k] for k in m],
+            "detection_radius_m": self.radii[i].tolist(),
+            "drift": self.drifts[j].tolist(),
+            "interception_rate": self.rates.ravel().tolist(),
+            "search_time_s": self.times.ravel().tolist(),
+        }
+        return write_csv(path, rows)
 
 
 def practice(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -25,6 +25,13 @@ the spiral's figures alone; "sd" is how much the thesis's protocol of ten runs s
 """
 
 
+KINDS = {
+    "figures": "The thesis's figures: what matches, and what does not",
+    "claims": "What the thesis says of them",
+    "library": "The reference simulation, and the better search",
+}
+
+
 def report(done: Reproduction) -> str:
     """Lay out discussion, checks and tables as Markdown."""
     results = done.results
@@ -42,10 +49,8 @@ def report(done: Reproduction) -> str:
     return "\n".join(
         [
             head,
-            "## What matches, and what does not\n",
-            *(_bullet(finding) for finding in findings),
-            "",
-            "## What this library must show\n",
+            *_sections(findings),
+            "## Checks\n",
             checked + ". What so few runs cannot tell from noise passes.",
             "",
             "## Misprints of the thesis, and what is right\n",
@@ -62,6 +67,7 @@ def write(done: Reproduction, out: Path, *, plots: bool, animation: bool) -> lis
     out.mkdir(parents=True, exist_ok=True)
     text = report(done)
     names = ["report.md", "results.csv", "velocities.csv", "fiducials.csv", "worlds.csv"]
+    names += [done.practice.to_csv(out / "which_search_when.csv").name]
     done.grid.to_csv(out / "results.csv")
     done.worlds.to_csv(out / "worlds.csv")
     write_csv(out / "velocities.csv", _by(done, "velocity"))
@@ -74,8 +80,16 @@ def write(done: Reproduction, out: Path, *, plots: bool, animation: bool) -> lis
     return names
 
 
-def _bullet(finding: discussion.Finding) -> str:
-    return f"- **{'yes' if finding.holds else 'no'}**: {finding.statement}. {finding.evidence}."
+def _sections(findings: Sequence[discussion.Finding]) -> Iterator[str]:
+    """Findings by kind, those that hold first."""
+    for kind, title in KINDS.items():
+        yield f"## {title}\n"
+        for holds in (True, False):
+            some = [f for f in findings if f.kind == kind and f.holds is holds]
+            yield from (
+                f"- **{'Yes' if holds else 'No'}**: {f.statement}: {f.evidence}." for f in some
+            )
+        yield ""
 
 
 def _by(done: Reproduction, what: str) -> dict[str, list[Any]]:

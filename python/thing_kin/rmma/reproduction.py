@@ -18,6 +18,8 @@ from thing_kin.rmma.worlds import named_worlds
 
 Key = tuple[int, str, int | None]  # arrangement, method, configuration
 
+LEAST_RUNS = 20
+
 COVERING: Mapping[str, Mapping[str, Any]] = {
     "covering, no odometry": {"method": "covering", "odometry": "none"},
     "covering, odometry on failure": {"method": "covering", "odometry": "failure"},
@@ -82,7 +84,7 @@ class Reproduction:
     Examples
     --------
     >>> from thing_kin import rmma
-    >>> done = rmma.reproduce(brief=True, runs=2)  # doctest: +SKIP
+    >>> done = rmma.reproduce(brief=True)  # doctest: +SKIP
     """
 
     results: Mapping[Key, Result]
@@ -184,6 +186,11 @@ def reproduce(
     -------
     Reproduction
 
+    Raises
+    ------
+    ValueError
+        If there are fewer than 20 runs.
+
     Examples
     --------
     >>> from thing_kin import rmma
@@ -192,12 +199,16 @@ def reproduce(
     """
     extent = BRIEF if brief else WHOLE
     runs = extent.runs if runs is None else runs
+    if runs < LEAST_RUNS:
+        raise ValueError(
+            f"runs: got {runs}, expected at least {LEAST_RUNS}: two repetitions of the thesis's ten"
+        )
     with contextlib.ExitStack() as stack:
         executor = executor or stack.enter_context(spawned_processes())
         common: dict[str, Any] = {"rng": rng, "executor": executor, "progress": progress}
         grid = _standard(extent, runs, common)
         worlds = {name: named_worlds()[name] for name in extent.named}
-        elsewhere = sweep((1, 2, 3), IN_WORLDS, worlds=worlds, runs=extent.worlds, **common)
+        elsewhere = _elsewhere(worlds, extent, runs, common)
         which = practice(extent.radii, extent.drifts, runs=extent.practice, **common)
     results = {(int(e.arrangement[1:]), e.method, e.config): e.result for e in grid}
     return Reproduction(results, grid, elsewhere, which, rng)
@@ -212,5 +223,20 @@ def _standard(extent: Extent, runs: int, common: Mapping[str, Any]) -> Sweep:
         sweep((1, 2, 3), ["ukf"], configs=range(1, 7), runs=runs, **common),
         sweep((1,), ["ukf"], configs=(7,), runs=runs, **common),
         sweep((1, 2, 3), COVERING, runs=covering, **common),
+    ]
+    entries = [entry for part in parts for entry in part]
+    order = list(dict.fromkeys(entry.method for entry in entries))
+    entries.sort(key=lambda e: (order.index(e.method), e.arrangement, e.config or 0))
+    return Sweep(tuple(entries))
+
+
+def _elsewhere(
+    worlds: Mapping[str, Any], extent: Extent, runs: int, common: Mapping[str, Any]
+) -> Sweep:
+    """Methods in other worlds; and the linear filter where the base creeps, for its trend."""
+    creeping = {name: worlds[name] for name in (discussion.CREEP,)}
+    parts = [
+        sweep((1, 2, 3), IN_WORLDS, worlds=worlds, runs=extent.worlds, **common),
+        sweep((1,), ["linear_kf"], configs=(6,), worlds=creeping, runs=runs, **common),
     ]
     return Sweep(tuple(entry for part in parts for entry in part))
