@@ -81,14 +81,13 @@ def write(done: Reproduction, out: Path, *, plots: bool, animation: bool) -> lis
 
 
 def _sections(findings: Sequence[discussion.Finding]) -> Iterator[str]:
-    """Findings by kind, those that hold first."""
+    """Yield findings by kind, those that hold first."""
     for kind, title in KINDS.items():
         yield f"## {title}\n"
         for holds in (True, False):
+            word = "Yes" if holds else "No"
             some = [f for f in findings if f.kind == kind and f.holds is holds]
-            yield from (
-                f"- **{'Yes' if holds else 'No'}**: {f.statement}: {f.evidence}." for f in some
-            )
+            yield from (f"- **{word}**: {f.statement}: {f.evidence}." for f in some)
         yield ""
 
 
