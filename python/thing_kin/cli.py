@@ -10,6 +10,7 @@ from pathlib import Path
 import thing_kin as tk
 
 OK, CHECKS_FAILED, USAGE = 0, 1, 2
+LEAST_RUNS = 20  # of `rmma`: as rmma.reproduce has it
 
 EPILOG = "exit codes: 0 all went well, 1 the command's own checks failed, 2 wrong usage"
 
@@ -68,7 +69,7 @@ def _add_rmma(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> 
     )
     rmma.add_argument(
         "--runs",
-        type=_count,
+        type=_runs,
         metavar="N",
         help="runs of the thesis's methods at each velocity (default: 1000, brief: 60)",
     )
@@ -114,10 +115,11 @@ def _rmma(arguments: argparse.Namespace) -> int:
     return OK if all(done.checks.values()) else CHECKS_FAILED
 
 
-def _count(text: str) -> int:
-    """Read a whole number of at least 1."""
-    if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"got {text!r}, expected a whole number of at least 1")
+def _runs(text: str) -> int:
+    """Read how many runs: so many that their scatter is known."""
+    if not text.isdecimal() or int(text) < LEAST_RUNS:
+        wanted = f"expected a whole number of at least {LEAST_RUNS}"
+        raise argparse.ArgumentTypeError(f"got {text!r}, {wanted}")
     return int(text)
 
 

@@ -74,8 +74,7 @@ def discuss(results: Results, worlds: Sweep) -> list[Finding]:
     """Return all findings, kind by kind."""
     return [
         _identity(),
-        *_table_5_2(results),
-        _linear(results),
+        *_tables_5_1_and_5_2(results),
         *_configurations(results),
         *_fiducials(results),
         _falls(results),
@@ -125,32 +124,38 @@ def _identity() -> Finding:
     )
 
 
-def _table_5_2(results: Results) -> list[Finding]:
-    found = []
-    for (arrangement, method), printed in thesis.TABLE_5_2.items():
-        config = thesis.TABLE_5_2_CONFIGURATION[arrangement] if method == "ukf" else None
-        result = results[arrangement, method, config]
-        found.append(_compare(f"{method} on #{arrangement} matches the thesis", result, printed))
-    return found
-
-
-def _linear(results: Results) -> Finding:
+def _entries(results: Results) -> list[tuple[str, Result, Measures]]:
+    """Return what Tables 5.1 and 5.2 have, each once."""
     printed = thesis.TABLE_5_1["linear_kf"]
-    return _compare("linear_kf on #1 matches the thesis", results[1, "linear_kf", 6], printed)
+    entries = [("linear_kf on #1", results[1, "linear_kf", 6], printed)]
+    for (arrangement, method), row in thesis.TABLE_5_2.items():
+        config = thesis.TABLE_5_2_CONFIGURATION[arrangement] if method == "ukf" else None
+        entries.append((f"{method} on #{arrangement}", results[arrangement, method, config], row))
+    return entries
 
 
-def _compare(statement: str, result: Result, printed: Measures) -> Finding:
-    """Within the noise of ten runs in rate and time; the error is told, and not asked for."""
-    sd = ten_runs(result)
-    rate = result.interception_rate - printed.interception_rate
-    time = result.search_time - printed.search_time
-    told = f"rate {100 * rate:+.1f} points{_in_sd(rate, sd[0])}"
-    told += f", time {time:+.2f} s{_in_sd(time, sd[1])}"
-    error = result.position_error - printed.position_error
-    if isfinite(error):
-        told += f", position error {1e3 * error:+.1f} mm{_in_sd(error, sd[2])}"
-    holds = abs(rate) <= NOISE * sd[0] and abs(time) <= NOISE * sd[1]
-    return Finding("figures", statement + f" within {NOISE:g} sd of ten runs", holds, told)
+def _tables_5_1_and_5_2(results: Results) -> list[Finding]:
+    """Return whether each rate and time, and the position errors, are within ten runs' noise."""
+    rates, times, errors = [], [], []
+    for name, result, printed in _entries(results):
+        sd = ten_runs(result)
+        rate = result.interception_rate - printed.interception_rate
+        time = result.search_time - printed.search_time
+        error = result.position_error - printed.position_error
+        rates.append(_within(f"rate of {name}", rate, sd[0], f"{100 * rate:+.1f} points"))
+        times.append(_within(f"time of {name}", time, sd[1], f"{time:+.2f} s"))
+        if isfinite(error):
+            errors.append((name, error, sd[2]))
+    told = (f"{name} {1e3 * error:+.1f} mm{_in_sd(error, sd)}" for name, error, sd in errors)
+    close = all(abs(error) <= NOISE * sd for _, error, sd in errors)
+    statement = f"all position errors are the thesis's within {NOISE:g} sd of ten runs"
+    return [*rates, *times, Finding("figures", statement, close, ", ".join(told))]
+
+
+def _within(name: str, difference: float, sd: float, told: str) -> Finding:
+    statement = f"{name} is the thesis's within {NOISE:g} sd of ten runs"
+    holds = abs(difference) <= NOISE * sd
+    return Finding("figures", statement, holds, told + _in_sd(difference, sd))
 
 
 def _in_sd(difference: float, sd: float) -> str:

@@ -14,8 +14,10 @@ from thing_kin.rmma.records import write_csv
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from thing_kin.rmma.experiment import Method
     from thing_kin.rmma.reproduction import Reproduction
 
+TRACED = 0.02  # m/s: velocity of the runs that are drawn
 HEAD = """# The RMMA experiment, [X21] chapter 5
 
 thing_kin {version}; {runs} runs at each of five velocities, {covering} with the covering search;
@@ -111,26 +113,38 @@ def _by(done: Reproduction, what: str) -> dict[str, list[Any]]:
 def _write_figures(done: Reproduction, out: Path, animation: bool) -> list[str]:
     from thing_kin import rmma, viz
 
-    trace = rmma.trace(1, "ukf", velocity=0.02, rng=done.seed)
-    better = rmma.trace(1, "covering", velocity=0.02, rng=done.seed)
-    radius = rmma.World().detection_radius
-    makers: dict[str, Callable[[], Figure]] = {
+    makers = figure_makers(done)
+    for name, make in makers.items():
+        make().savefig(out / name, dpi=120)
+    if not animation:
+        return list(makers)
+    trace = rmma.trace(1, "ukf", velocity=TRACED, rng=done.seed)
+    viz.animate_rmma_run(trace, out / "run_ukf.gif")
+    return [*makers, "run_ukf.gif"]
+
+
+def figure_makers(done: Reproduction) -> dict[str, Callable[[], Figure]]:
+    """Return what draws each figure, by the name of its file."""
+    from thing_kin import viz
+
+    return {
         "arrangements.png": viz.plot_rmma_arrangements,
         **{
             f"figure_5_{k}.png": partial(viz.plot_rmma_thesis_figure, f"5.{k}", done.results)
             for k in range(1, 9)
         },
         **{f"methods_{k}.png": partial(_methods, done, k) for k in (1, 2, 3)},
-        "run_ukf.png": partial(viz.plot_rmma_run, trace, detection_radius=radius),
-        "run_covering.png": partial(viz.plot_rmma_run, better, detection_radius=radius),
+        "run_ukf.png": partial(_run, done, "ukf"),
+        "run_covering.png": partial(_run, done, "covering"),
         "which_search_when.png": partial(viz.plot_rmma_practice, done.practice),
     }
-    for name, make in makers.items():
-        make().savefig(out / name, dpi=120)
-    if not animation:
-        return list(makers)
-    viz.animate_rmma_run(trace, out / "run_ukf.gif")
-    return [*makers, "run_ukf.gif"]
+
+
+def _run(done: Reproduction, method: Method) -> Figure:
+    from thing_kin import rmma, viz
+
+    trace = rmma.trace(1, method, velocity=TRACED, rng=done.seed)
+    return viz.plot_rmma_run(trace, detection_radius=rmma.World().detection_radius)
 
 
 def _methods(done: Reproduction, arrangement: int) -> Figure:

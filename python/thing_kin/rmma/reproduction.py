@@ -18,7 +18,7 @@ from thing_kin.rmma.worlds import named_worlds
 
 Key = tuple[int, str, int | None]  # arrangement, method, configuration
 
-LEAST_RUNS = 20
+LEAST_RUNS = 20  # so that their scatter is known
 
 COVERING: Mapping[str, Mapping[str, Any]] = {
     "covering, no odometry": {"method": "covering", "odometry": "none"},
@@ -200,9 +200,7 @@ def reproduce(
     extent = BRIEF if brief else WHOLE
     runs = extent.runs if runs is None else runs
     if runs < LEAST_RUNS:
-        raise ValueError(
-            f"runs: got {runs}, expected at least {LEAST_RUNS}: two repetitions of the thesis's ten"
-        )
+        raise ValueError(f"runs: got {runs}, expected at least {LEAST_RUNS}")
     with contextlib.ExitStack() as stack:
         executor = executor or stack.enter_context(spawned_processes())
         common: dict[str, Any] = {"rng": rng, "executor": executor, "progress": progress}

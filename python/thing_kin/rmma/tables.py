@@ -157,8 +157,8 @@ def _side_by_side(rows: Iterable[tuple[str, Result, Measures]]) -> str:
 
 
 def ten_runs(result: Result) -> tuple[float, float, float]:
-    """Return the ten-run protocol's standard deviations; NaN with fewer than two blocks."""
-    if result.runs < 2 * thesis.RUNS:
+    """Return the ten-run protocol's standard deviations; NaN with one run."""
+    if result.runs < 2:
         return nan, nan, nan
     spread: Spread = result.spread(thesis.RUNS)
     return spread.interception_rate, spread.search_time, spread.position_error
