@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -108,10 +109,14 @@ def test_rmma_reports_on_stdout_and_writes_the_same(tmp_path, capsys):
 
 
 def test_rmma_with_a_failed_check_is_exit_code_1(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("thing_kin.rmma.discussion.COVERING_RATE", 1.1)
-    arguments = ["rmma", "--brief", "--no-plots", "--runs", "20", "--out", str(tmp_path)]
-    assert main(arguments) == 1
-    assert "not: covering on #1: 99.5 %" in capsys.readouterr().out
+    done = SimpleNamespace(
+        report=lambda: "report",
+        write=lambda out, **_: ["a", "b"],
+        checks={"one": True, "two": False},
+    )
+    monkeypatch.setattr("thing_kin.rmma.reproduce", lambda *_, **__: done)
+    assert main(["rmma", "--no-plots", "--out", str(tmp_path)]) == 1
+    assert capsys.readouterr().out == f"report\nwritten to {tmp_path}: a, b\n"
 
 
 def test_rmma_finds_out_before_the_work(tmp_path, capsys, monkeypatch):

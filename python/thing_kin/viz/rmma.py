@@ -94,7 +94,7 @@ def plot_rmma_methods(results: Mapping[str, Result]) -> Figure:
         tidy(axes, xlabel="velocity [cm/s]", ylabel=LABELS[measure])
         from_zero(axes, measure)
     handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=4, frameon=False)
+    figure.legend(handles, labels, loc="outside lower center", ncols=6, frameon=False)
     return figure
 
 
