@@ -13,6 +13,7 @@ void bind_stochastic(py::module_& m);
 void bind_compensation(py::module_& m);
 void bind_covering(py::module_& m);
 void bind_world(py::module_& m);
+void bind_manipulator_arm(py::module_& m);
 void bind_experiment(py::module_& m);
 
 }  // namespace thing_kin::python

@@ -11,5 +11,6 @@ PYBIND11_MODULE(_search, m) {
   bind_compensation(m);
   bind_covering(m);
   bind_world(m);
+  bind_manipulator_arm(m);
   bind_experiment(m);
 }

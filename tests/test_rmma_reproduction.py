@@ -4,13 +4,15 @@ import csv
 import dataclasses
 import re
 from concurrent.futures import ThreadPoolExecutor
+from itertools import product
 
 import numpy as np
 import pytest
 
 import rmma_cases
 from thing_kin import rmma
-from thing_kin.rmma import discussion, reference, report, reproduction, thesis
+from thing_kin.rmma import discussion, reference, report, reproduction, thesis, world_table
+from thing_kin.rmma.reference_worlds import METHODS, WORLDS
 
 
 @pytest.fixture(scope="module")
@@ -122,6 +124,20 @@ def test_report_has_all_tables_and_findings(done):
     for erratum in thesis.ERRATA:
         assert erratum.right in text
     assert text.count("```") == 2 * len(done.tables())
+
+
+def test_table_of_worlds_has_every_world_and_method(done):
+    text = world_table.table_of_worlds(done.worlds)
+    assert f", {reproduction.BRIEF.worlds} runs at each velocity" in text.splitlines()[0]
+    rows = text.splitlines()[4:]
+    cells = list(product(reproduction.BRIEF.named, METHODS))
+    for row, (name, method) in zip(rows, cells, strict=True):
+        assert row.startswith(name) == (method == METHODS[0])
+        found = done.worlds.select(world=name, method=method)
+        ours = [entry.result.interception_rate for entry in found]
+        for rates in (ours, WORLDS[name][method].rates):
+            assert " / ".join(f"{100 * rate:.1f}" for rate in rates) in row
+        assert f" {method} " in row
 
 
 def test_files(done, tmp_path):

@@ -1,27 +1,37 @@
 #include "thing_kin/rmma/experiment.hpp"
 
+#include <pybind11/stl.h>
+
 #include "map.hpp"
 #include "rmma/world.hpp"
 #include "search_bindings.hpp"
 #include "thing_kin/core/error.hpp"
+#include "thing_kin/rmma/manipulator_arm.hpp"
 
 namespace thing_kin::python {
 
 namespace {
 
-/// World of a drive: the core's own, or one that Python makes.
-StartDrive start_drive(const py::object& world, std::uint64_t seed, double reach) {
+using ArmPointer = std::shared_ptr<const ManipulatorArm>;
+
+/// World of a drive: the core's own, or one that Python makes; with an arm, or with its own.
+StartDrive start_drive(const py::object& world, const ArmPointer& arm, std::uint64_t seed,
+                       double reach) {
+  const auto armed = [arm](std::unique_ptr<WorldRun> run) {
+    return arm ? with_arm(std::move(run), arm) : std::move(run);
+  };
   if (py::isinstance<World>(world)) {
-    return [values = world.cast<World>(), seed](double velocity, const SearchPoints& side,
-                                                const DriveIndex& index) {
-      return start_run(values, velocity, side, drive_key(seed, index));
+    return [values = world.cast<World>(), seed, armed](double velocity, const SearchPoints& side,
+                                                       const DriveIndex& index) {
+      return armed(start_run(values, velocity, side, drive_key(seed, index)));
     };
   }
-  return [world, seed, reach](double velocity, const SearchPoints& side, const DriveIndex& index) {
+  return [world, seed, reach, armed](double velocity, const SearchPoints& side,
+                                     const DriveIndex& index) {
     std::unique_ptr<WorldRun> run =
         python_run(world(velocity, points_array(side), drive_key(seed, index)), reach);
     check_start(*run, side);
-    return run;
+    return armed(std::move(run));
   };
 }
 
@@ -105,11 +115,11 @@ void bind_experiment(py::module_& m) {
       "run_experiment",
       [](const py::list& sides, const ArrayLike& velocities, std::size_t runs,
          const SearchOptions& options, std::uint64_t seed, const py::object& world,
-         const ThreadCount& threads) {
+         const ArmPointer& arm, const ThreadCount& threads) {
         const std::vector<SearchPoints> read_in = read_sides(sides);
         const Batch speeds = read(velocities, "velocities", {});
         const std::span<const double> each(speeds.data, static_cast<std::size_t>(speeds.count));
-        const StartDrive start = start_drive(world, seed, options.covering.reach);
+        const StartDrive start = start_drive(world, arm, seed, options.covering.reach);
         const bool own = py::isinstance<World>(world);
         std::vector<Attempt> attempts;
         if (own) {
@@ -122,12 +132,12 @@ void bind_experiment(py::module_& m) {
         return attempts_array(attempts, speeds.count, static_cast<py::ssize_t>(runs));
       },
       py::arg("sides"), py::arg("velocities"), py::arg("runs"), py::arg("options"), py::arg("seed"),
-      py::arg("world"), py::arg("threads"));
+      py::arg("world"), py::arg("arm"), py::arg("threads"));
 
   m.def(
       "trace_run",
       [](const py::list& sides, double velocity, const SearchOptions& options, std::uint64_t seed,
-         std::uint64_t run, const py::object& world) {
+         std::uint64_t run, const py::object& world, const ArmPointer& arm) {
         const std::vector<SearchPoints> read_in = read_sides(sides);
         std::size_t fiducials = 0;
         for (const SearchPoints& side : read_in) {
@@ -136,7 +146,7 @@ void bind_experiment(py::module_& m) {
         std::vector<Attempt> attempts(fiducials);
         std::vector<std::vector<SearchTrace>> traces;
         run_once(read_in, velocity, options, seed, {.velocity = 0, .run = run, .side = 0},
-                 start_drive(world, seed, options.covering.reach), attempts, &traces);
+                 start_drive(world, arm, seed, options.covering.reach), attempts, &traces);
         py::list list;
         for (const std::vector<SearchTrace>& side : traces) {
           list.append(trace_list(side));
@@ -144,7 +154,7 @@ void bind_experiment(py::module_& m) {
         return py::make_tuple(attempts_array(attempts, 1, 1), list);
       },
       py::arg("sides"), py::arg("velocity"), py::arg("options"), py::arg("seed"), py::arg("run"),
-      py::arg("world"));
+      py::arg("world"), py::arg("arm"));
 
   m.def(
       "drive_key",

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/LU>
+
 namespace thing_kin {
 
 namespace {
@@ -39,19 +41,27 @@ constexpr double kPositionWalk = 0.004;  // m
 constexpr double kHeadingWalk = 0.6 * kDegree;
 constexpr double kSpeedWalk = 0.04;
 constexpr double kCreepWalk = 0.001;  // of its variance, per s
-constexpr double kBiasLength = 0.4;   // m: how far the odometry's bias holds
 // Readings.
 constexpr double kOdometryWhite = 0.002;  // m
 constexpr double kOdometryHeading = 0.5 * kDegree;
 constexpr double kArmDeviation = 0.001;  // m: what forward kinematics does not see
 constexpr double kLongestStep = 0.05;    // m: the way is taken as straight so far
 constexpr double kSlowestShare = 0.3;    // of v_b
+// A reading that is this improbable was a jump, of the base or of its localization.
+constexpr double kJumpNis = 25.0;
+constexpr double kJumpOfBase = 0.008;     // m
+constexpr double kJumpOfBias = 0.016;     // m
+constexpr double kJumpOfHeading = 0.015;  // rad, each
+constexpr double kJumpLogProbability = -6.0;
 // Weights never leave a guess for good: noise may change.
 constexpr double kLeastLogWeight = -12.0;
+constexpr double kLeastWeight = 0.003;  // of a guess that a search heeds
+
+using OdometrySight = Eigen::Matrix<double, 3, BaseEstimator::kStates>;
 
 double squared(double x) { return x * x; }
 
-StateMatrix first_covariance(const NoiseScale& scale, double velocity) {
+StateMatrix first_covariance(const NoiseGuess& scale, double velocity) {
   StateMatrix P = StateMatrix::Zero(BaseEstimator::kStates, BaseEstimator::kStates);
   P(kX, kX) = P(kY, kY) = squared(kFarAway);
   P(kTheta, kTheta) = squared(kHeading * scale.drift);
@@ -81,6 +91,25 @@ struct ToolSight {
       Eigen::Matrix<double, 2, BaseEstimator::kStates>::Zero();
 };
 
+/// Where a reading can't be, the state before it is taken to have jumped: whether it did.
+bool jumped(ExtendedKalmanFilter& filter, const Eigen::Vector3d& innovation, const OdometrySight& H,
+            const Eigen::Matrix3d& R) {
+  StateMatrix P = filter.P();
+  const Eigen::Matrix3d S =
+      H * P.topLeftCorner<BaseEstimator::kStates, BaseEstimator::kStates>() * H.transpose() + R;
+  if (innovation.dot(S.inverse() * innovation) < kJumpNis) {
+    return false;
+  }
+  P(kX, kX) += squared(kJumpOfBase);
+  P(kY, kY) += squared(kJumpOfBase);
+  P(kBiasX, kBiasX) += squared(kJumpOfBias);
+  P(kBiasY, kBiasY) += squared(kJumpOfBias);
+  P(kTheta, kTheta) += squared(kJumpOfHeading);
+  P(kBiasTheta, kBiasTheta) += squared(kJumpOfHeading);
+  filter.set_P(P);
+  return true;
+}
+
 }  // namespace
 
 BaseEstimator::BaseEstimator(const Vector2d& fiducial, const Vector2d& displacement,
@@ -88,7 +117,7 @@ BaseEstimator::BaseEstimator(const Vector2d& fiducial, const Vector2d& displacem
     : velocity_(velocity), memory_(&memory) {
   State x = State::Zero();
   x.head<2>() = fiducial - displacement;
-  for (const NoiseScale& scale : kNoiseScales) {
+  for (const NoiseGuess& scale : kNoiseGuesses) {
     bank_.emplace_back(x, first_covariance(scale, velocity));
   }
   PlanarNormal miss;
@@ -118,12 +147,12 @@ void BaseEstimator::predict(double dt) {
 
 void BaseEstimator::predict_member(std::size_t k, double dt, double distance) {
   ExtendedKalmanFilter& filter = bank_[k];
-  const NoiseScale& scale = kNoiseScales[k];
+  const NoiseGuess& scale = kNoiseGuesses[k];
   StateVector x = filter.x();
   const double c = std::cos(x(kTheta));
   const double s = std::sin(x(kTheta));
   const double way = distance * (1.0 + x(kSpeed));
-  const double kept = std::exp(-distance / kBiasLength);
+  const double kept = std::exp(-distance / scale.bias_length);
   ModelMatrix F = ModelMatrix::Identity(kStates, kStates);
   F(kX, kTheta) = -way * s;
   F(kX, kSpeed) = distance * c;
@@ -150,19 +179,23 @@ void BaseEstimator::predict_member(std::size_t k, double dt, double distance) {
 }
 
 void BaseEstimator::read_odometry(const Pose2& seen) {
-  ModelMatrix H = ModelMatrix::Zero(3, kStates);
+  OdometrySight H = OdometrySight::Zero();
   for (int i = 0; i < 3; ++i) {
     H(i, i) = H(i, kBiasX + i) = 1.0;
   }
   for (std::size_t k = 0; k < bank_.size(); ++k) {
-    const double scale = kNoiseScales[k].odometry;
+    const double scale = kNoiseGuesses[k].odometry;
     ExtendedKalmanFilter& filter = bank_[k];
     const StateVector expected = H * filter.x();
     const Eigen::Vector3d variance(squared(kOdometryWhite * scale), squared(kOdometryWhite * scale),
                                    squared(kOdometryHeading * scale));
     StateVector z = seen;
     z(2) = expected(2) + wrap_angle(seen.z() - expected(2));
-    filter.update(z, expected, H, variance.asDiagonal().toDenseMatrix());
+    const Eigen::Matrix3d R = variance.asDiagonal();
+    if (jumped(filter, z - expected, H, R)) {
+      memory_->log_weight[k] += kJumpLogProbability;
+    }
+    filter.update(z, expected, H, R);
     weigh(k);
   }
   settle();
@@ -173,7 +206,7 @@ void BaseEstimator::hit(const Vector2d& fiducial, const Vector2d& displacement,
   for (std::size_t k = 0; k < bank_.size(); ++k) {
     ExtendedKalmanFilter& filter = bank_[k];
     const ToolSight tool(filter.x(), displacement);
-    const Matrix2d R = miss.covariance + (squared(kArmDeviation) + squared(kNoiseScales[k].map)) *
+    const Matrix2d R = miss.covariance + (squared(kArmDeviation) + squared(kNoiseGuesses[k].map)) *
                                              Matrix2d::Identity();
     filter.update(fiducial - miss.mean, tool.at, tool.H, R);
     weigh(k);
@@ -211,13 +244,16 @@ std::vector<PlanarNormal> BaseEstimator::offsets(const Vector2d& displacement) c
   const Vector2d meant = compose(pose_, Pose2(displacement.x(), displacement.y(), 0.0)).head<2>();
   std::vector<PlanarNormal> parts;
   for (std::size_t k = 0; k < bank_.size(); ++k) {
+    if (weight_[k] < kLeastWeight) {
+      continue;
+    }
     const ToolSight tool(bank_[k].x(), displacement);
     PlanarNormal part;
     part.weight = weight_[k];
     part.mean = meant - tool.at;
     part.covariance = tool.H * bank_[k].P().topLeftCorner<kStates, kStates>() * tool.H.transpose();
     part.covariance +=
-        (squared(kArmDeviation) + squared(kNoiseScales[k].map)) * Matrix2d::Identity();
+        (squared(kArmDeviation) + squared(kNoiseGuesses[k].map)) * Matrix2d::Identity();
     parts.push_back(part);
   }
   return parts;

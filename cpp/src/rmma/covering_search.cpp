@@ -155,7 +155,15 @@ class CoveringDrive {
     const std::vector<PlanarNormal> belief = with_tails(base_->offsets(displacement(fiducial)));
     std::optional<CoveringSearch> covering;
     Vector2d shift = first_shift(belief);
-    arm_.send(displacement(fiducial + shift) - offset_);
+    if (arm_.run().reaches(displacement(fiducial + shift) - offset_)) {
+      arm_.send(displacement(fiducial + shift) - offset_);
+    } else {
+      covering.emplace(belief, sight(), stop_time_, kExtent);
+      if (!next(fiducial, shift, *covering)) {
+        give_up(attempt);
+        return;
+      }
+    }
     while (true) {
       ++attempt.samples;
       const bool hit = arm_.sees(time_, fiducial, out_.trace != nullptr ? &trace : nullptr);
@@ -163,20 +171,12 @@ class CoveringDrive {
       const Vector2d at = tool(arm_.seen()) - fiducial;
       if (hit) {
         attempt.intercepted = true;
-        attempt.position_error = (fiducial - tool(arm_.seen())).norm();
-        PlanarNormal miss;
-        if (covering) {
-          miss = covering->seen_from(at);
-          miss.mean -= at;
-        } else {
-          miss.covariance =
-              0.25 * options_.detection_radius * options_.detection_radius * Matrix2d::Identity();
-        }
-        base_->hit(fiducial, arm_.seen(), miss);
+        attempt.position_error = at.norm();
+        found(fiducial, at, covering);
         return;
       }
       if (!covering) {
-        covering.emplace(belief, Sight{.radius = options_.detection_radius}, stop_time_, kExtent);
+        covering.emplace(belief, sight(), stop_time_, kExtent);
       }
       covering->miss(at);
       if (out_of_time(i) || !next(fiducial, at, *covering)) {
@@ -184,6 +184,22 @@ class CoveringDrive {
       }
     }
     give_up(attempt);
+  }
+
+  Sight sight() const { return {.radius = options_.detection_radius}; }
+
+  /// What a hit tells, with the stops before it that saw nothing.
+  void found(const Vector2d& fiducial, const Vector2d& at,
+             const std::optional<CoveringSearch>& covering) {
+    PlanarNormal miss;
+    if (covering) {
+      miss = covering->seen_from(at);
+      miss.mean -= at;
+    } else {
+      const double deviation = 0.5 * options_.detection_radius;
+      miss.covariance = deviation * deviation * Matrix2d::Identity();
+    }
+    base_->hit(fiducial, arm_.seen(), miss);
   }
 
   /// Where the belief is densest, of the means of its parts.

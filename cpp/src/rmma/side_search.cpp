@@ -55,6 +55,9 @@ bool register_first(SearchArm& arm, const Vector2d& fiducial) {
     const SearchPoints points = spiral_points(
         kFirstDisplacement, {.gap = gap, .spacing = gap, .count = wide ? 3000U : 45U});
     for (const Vector2d& point : points) {
+      if (!arm.run().reaches(point)) {
+        continue;
+      }
       if (&point == &points.front()) {
         arm.move_to(point);
       } else {

@@ -21,6 +21,7 @@ constexpr double kCellsPerRadius = 3.0;
 constexpr int kMostCells = 160;            // along a side
 constexpr double kDeviationsInside = 4.0;  // of the belief, in the region that is built first
 constexpr double kRadiiInside = 3.0;
+constexpr double kNegligible = 40.0;  // exp(-40) of a density
 
 /// A normal density, ready to be evaluated.
 struct PlanarDensity {
@@ -32,7 +33,8 @@ struct PlanarDensity {
 
   double operator()(const Vector2d& at) const noexcept {
     const Vector2d d = at - mean;
-    return scale * std::exp(-0.5 * d.dot(information * d));
+    const double exponent = 0.5 * d.dot(information * d);
+    return exponent > kNegligible ? 0.0 : scale * std::exp(-exponent);
   }
 
   Vector2d mean;

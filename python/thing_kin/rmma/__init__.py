@@ -1,5 +1,6 @@
 """The fiducial-interception experiment of [X21], chapters 4 and 5."""
 
+from thing_kin._search import ManipulatorArm, WorldRun
 from thing_kin.rmma.arrangement import ARRANGEMENTS, Arrangement
 from thing_kin.rmma.experiment import CONFIGS, Config, WorldLike, run, trace
 from thing_kin.rmma.practices import Practice, practice
@@ -15,6 +16,7 @@ __all__ = [
     "CONFIGS",
     "Arrangement",
     "Config",
+    "ManipulatorArm",
     "Practice",
     "Reproduction",
     "Result",
@@ -26,6 +28,7 @@ __all__ = [
     "Trace",
     "World",
     "WorldLike",
+    "WorldRun",
     "named_worlds",
     "practice",
     "reproduce",

@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from thing_kin import _search
+from thing_kin._search import ManipulatorArm
 from thing_kin.rmma.arrangement import ARRANGEMENTS, Arrangement
 from thing_kin.rmma.result import Result
 from thing_kin.rmma.traces import SearchTrace, SideTrace, Trace
@@ -90,6 +91,7 @@ def run(
     spiral_gap: float = 0.005,
     spiral_count: int = 45,
     detection_radius: float | None = None,
+    arm: ManipulatorArm | None = None,
 ) -> Result:
     """Drive by the fiducials again and again, and say how many were intercepted.
 
@@ -124,6 +126,9 @@ def run(
     detection_radius : float, optional
         m: what "covering" is told of how far the laser sees; default what the world has, or half of
         the standard world's where it does not say. Better too small than too large.
+    arm : ManipulatorArm, optional
+        A real arm: its inverse kinematics decides where the tool can be, and its joints' limits how
+        long motions take. Default the thesis's simplified arm, as the world has it.
 
     Returns
     -------
@@ -157,6 +162,7 @@ def run(
         options.core,
         _search.read_seed(rng),
         _starter(place),
+        arm,
         workers,
     )
     intercepted, searched, times, errors, samples = columns
@@ -186,13 +192,15 @@ def trace(
     spiral_gap: float = 0.005,
     spiral_count: int = 45,
     detection_radius: float | None = None,
+    arm: ManipulatorArm | None = None,
     interval: float = 0.5,
 ) -> Trace:
     """One run in all detail, for pictures.
 
     Parameters
     ----------
-    arrangement, method, rng, world, config, odometry, spiral_gap, spiral_count, detection_radius
+    arrangement, method, rng, world, config, odometry : as of `run`
+    spiral_gap, spiral_count, detection_radius, arm
         As of `run`; with the same seed it is the first run of the first velocity.
     velocity : float
         m/s.
@@ -224,7 +232,9 @@ def trace(
         chosen, method, place, config, odometry, (spiral_gap, spiral_count), detection_radius
     )
     seed = _search.read_seed(rng)
-    _, sides = _search.trace_run(list(chosen.driven), speed, options.core, seed, 0, _starter(place))
+    _, sides = _search.trace_run(
+        list(chosen.driven), speed, options.core, seed, 0, _starter(place), arm
+    )
     # The same drives once more, only to be looked at.
     begin = _starter(place)
     traces = []

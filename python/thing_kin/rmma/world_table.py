@@ -33,7 +33,7 @@ def table_of_worlds(worlds: Sweep) -> str:
                     _joined(number(time) for time in reference.times),
                 ]
             )
-    runs = max((entry.result.runs for entry in worlds), default=0)
+    runs = max((e.result.runs for e in worlds if e.method in METHODS), default=0)
     title = f"Other worlds, nothing tuned anew: #1 / #2 / #3, {runs} runs at each velocity"
     return f"{title}\n\n{columns(header, rows, left=2)}"
 

@@ -9,33 +9,36 @@
 
 namespace thing_kin {
 
-/// One guess at how well things are known: factors of the deviations that BaseNoise has.
-struct NoiseScale {
+/// One guess at how well things are known: factors of the usual deviations.
+struct NoiseGuess {
   double odometry = 1.0;
+  double bias_length = 0.4;  ///< m: how far the odometry's bias holds
   double drift = 1.0;
   double map = 0.0;  ///< m: deviation of where fiducials are from where they are listed
 };
 
 /// The guesses that an estimator weighs against each other.
-inline constexpr std::array kNoiseScales{
-    NoiseScale{.odometry = 1.0, .drift = 1.0, .map = 0.0},
-    NoiseScale{.odometry = 2.0, .drift = 1.0, .map = 0.0},
-    NoiseScale{.odometry = 4.0, .drift = 1.0, .map = 0.0},
-    NoiseScale{.odometry = 1.0, .drift = 2.5, .map = 0.0},
-    NoiseScale{.odometry = 3.0, .drift = 2.5, .map = 0.0},
-    NoiseScale{.odometry = 1.0, .drift = 1.0, .map = 0.008},
+inline constexpr std::array kNoiseGuesses{
+    NoiseGuess{},
+    NoiseGuess{.odometry = 2.0},
+    NoiseGuess{.odometry = 4.0},
+    NoiseGuess{.bias_length = 4.0},
+    NoiseGuess{.odometry = 2.5, .bias_length = 4.0},
+    NoiseGuess{.drift = 2.5},
+    NoiseGuess{.odometry = 2.5, .bias_length = 4.0, .drift = 2.5},
+    NoiseGuess{.map = 0.008},
 };
 
 /// What a robot has learnt of its noise: log weights of the guesses, kept from side to side.
 struct NoiseMemory {
-  std::array<double, kNoiseScales.size()> log_weight{};
+  std::array<double, kNoiseGuesses.size()> log_weight{};
 };
 
 /// Where the base is while it drives, from fiducials that were hit and from odometry.
 ///
 /// State (x, y, theta, s, kappa, b_x, b_y, b_theta, c): pose, speed above v_b as a share of it,
 /// curvature, the odometry's slow bias, lateral creep. Driving is uncertain per distance, creep and
-/// nothing else per time. One extended Kalman filter for each of kNoiseScales, weighed by how
+/// nothing else per time. One extended Kalman filter for each of kNoiseGuesses, weighed by how
 /// probable what was observed is to it: a bank.
 class BaseEstimator {
  public:
@@ -73,7 +76,7 @@ class BaseEstimator {
   double velocity_;
   NoiseMemory* memory_;
   std::vector<ExtendedKalmanFilter> bank_;
-  std::array<double, kNoiseScales.size()> weight_{};
+  std::array<double, kNoiseGuesses.size()> weight_{};
   Pose2 pose_ = Pose2::Zero();
   double speed_share_ = 0.0;
 };
