@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -33,6 +34,11 @@ def python(*arguments: str) -> subprocess.CompletedProcess[str]:
         ([], 2, "COMMAND"),
         (["wipe"], 2, "wipe"),
         (["demo", "--poses", "3"], 2, "--poses"),
+        (["--help"], 0, "rmma"),
+        (["rmma", "--help"], 0, "thing_kin_rmma"),
+        (["rmma", "--runs", "0"], 2, "--runs: got '0', expected a whole number of at least 20"),
+        (["rmma", "--runs", "many"], 2, "--runs: got 'many'"),
+        (["rmma", "--seed", "x"], 2, "--seed"),
     ],
 )
 def test_usage(capsys, arguments, code, expected):
@@ -89,6 +95,38 @@ def test_without_plots_neither_matplotlib_nor_tqdm_is_needed(tmp_path, capsys, m
         monkeypatch.setitem(sys.modules, module, None)
     assert main(["demo", "--brief", "--no-plots", "--out", str(tmp_path)]) == 0
     assert capsys.readouterr().err == ""
+
+
+def test_rmma_reports_on_stdout_and_writes_the_same(tmp_path, capsys):
+    arguments = ["rmma", "--brief", "--no-plots", "--runs", "20", "--out", str(tmp_path / "out")]
+    assert main(arguments) == 0
+    output = capsys.readouterr()
+    written = tmp_path / "out" / "report.md"
+    assert written.read_text(encoding="utf-8") in output.out
+    assert "Table 5.2" in output.out
+    assert "searching" in output.err
+    assert not [path for path in written.parent.iterdir() if path.suffix == ".png"]
+
+
+def test_rmma_with_a_failed_check_is_exit_code_1(tmp_path, capsys, monkeypatch):
+    done = SimpleNamespace(
+        report=lambda: "report",
+        write=lambda out, **_: ["a", "b"],
+        checks={"one": True, "two": False},
+    )
+    monkeypatch.setattr("thing_kin.rmma.reproduce", lambda *_, **__: done)
+    assert main(["rmma", "--no-plots", "--out", str(tmp_path)]) == 1
+    assert capsys.readouterr().out == f"report\nwritten to {tmp_path}: a, b\n"
+
+
+def test_rmma_finds_out_before_the_work(tmp_path, capsys, monkeypatch):
+    (tmp_path / "taken").write_text("mine")
+    assert main(["rmma", "--no-plots", "--out", str(tmp_path / "taken")]) == 2
+    assert "argument --out:" in capsys.readouterr().err
+    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    assert main(["rmma", "--out", str(tmp_path / "out")]) == 2
+    assert "--no-plots" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
 
 
 @pytest.mark.parametrize("module", ["thing_kin.cli", "thing_kin.viz", "thing_kin.demo"])

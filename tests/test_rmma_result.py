@@ -174,15 +174,23 @@ def test_searches_that_fail_together_widen_the_runs_interval_only():
 
 
 def test_spread_is_that_of_repetitions():
-    result = rmma_cases.made_up(2, runs=205, rate=0.9)
+    result = rmma_cases.made_up(2, runs=4000, rate=0.9)
     spread = result.spread(10)
-    assert (spread.blocks, spread.runs) == (20, 10)
-    cut = result.intercepted[:, :200].reshape(5, 20, 10, 6)
-    rates = [cut[:, k].mean() for k in range(20)]
-    assert spread.interception_rate == pytest.approx(np.std(rates, ddof=1), rel=1e-12)
-    for bad in (0, -1, 103):
-        with pytest.raises(ValueError, match="runs: got"):
-            result.spread(bad)
+    cut = [slice(10 * k, 10 * k + 10) for k in range(400)]
+    for name, values, searched in (
+        ("interception_rate", result.intercepted, np.ones_like(result.searched)),
+        ("search_time", result.search_times, np.ones_like(result.searched)),
+        ("position_error", result.position_errors, result.searched),
+    ):
+        blocks = [values[:, part][searched[:, part]].mean() for part in cut]
+        # A standard deviation of 400 blocks has one of 3.5 %.
+        assert getattr(spread, name) == pytest.approx(np.std(blocks, ddof=1), rel=0.12)
+    assert spread.runs == 10
+    assert result.spread(40).search_time == pytest.approx(spread.search_time / 2, rel=1e-12)
+    with pytest.raises(ValueError, match="runs: got 0"):
+        result.spread(0)
+    with pytest.raises(ValueError, match="runs: got 10 of 1"):
+        rmma_cases.made_up(2, runs=1).spread()
 
 
 # Text and files ------------------------------------------------------------------------------

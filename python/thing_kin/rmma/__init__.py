@@ -3,6 +3,8 @@
 from thing_kin._search import ManipulatorArm, WorldRun
 from thing_kin.rmma.arrangement import ARRANGEMENTS, Arrangement
 from thing_kin.rmma.experiment import CONFIGS, Config, WorldLike, run, trace
+from thing_kin.rmma.practices import Practice, practice
+from thing_kin.rmma.reproduction import Reproduction, reproduce
 from thing_kin.rmma.result import Result, Spread
 from thing_kin.rmma.sweeps import Sweep, SweepEntry, sweep
 from thing_kin.rmma.traces import SearchTrace, SideTrace, Trace
@@ -15,6 +17,8 @@ __all__ = [
     "Arrangement",
     "Config",
     "ManipulatorArm",
+    "Practice",
+    "Reproduction",
     "Result",
     "SearchTrace",
     "SideTrace",
@@ -26,6 +30,8 @@ __all__ = [
     "WorldLike",
     "WorldRun",
     "named_worlds",
+    "practice",
+    "reproduce",
     "run",
     "sweep",
     "trace",

@@ -5,13 +5,11 @@ from __future__ import annotations
 import math
 from functools import lru_cache
 from statistics import NormalDist
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+FloatArray = NDArray[np.float64]
 Interval = tuple[float, float]
 
 
@@ -29,23 +27,35 @@ def wilson(hits: float, trials: int, level: float = 0.95) -> Interval:
     return max(0.0, middle - half), min(1.0, middle + half)
 
 
-def mean_of_runs(values: NDArray[np.float64], level: float = 0.95) -> Interval:
+def mean_of_runs(values: FloatArray, level: float = 0.95) -> Interval:
     """Interval of the mean of (velocities, runs), runs being independent within each velocity.
 
     The mean is that of the velocities' means, Student's t with the runs' degrees of freedom. NaN
     (a run without a value) is left out; with one run the interval is unbounded.
     """
     checked_level(level)
-    counted = np.isfinite(values)
-    runs = counted.sum(axis=1)
-    values, counted, runs = values[runs > 0], counted[runs > 0], runs[runs > 0]
+    means, variances, runs = _by_velocity(values)
     freedom = int((runs - 1).sum())
     if freedom == 0 or (runs < 2).any():
         return -math.inf, math.inf
-    means = np.where(counted, values, 0.0).sum(axis=1) / runs
-    variances = (np.where(counted, values - means[:, None], 0.0) ** 2).sum(axis=1) / (runs - 1)
     half = student(freedom, level) * math.sqrt(float((variances / runs).sum())) / len(runs)
     return float(means.mean()) - half, float(means.mean()) + half
+
+
+def sd_of_mean(values: FloatArray, runs: int) -> float:
+    """Return the standard deviation of a mean over velocities, of so many runs at each."""
+    _, variances, _ = _by_velocity(values)
+    return math.sqrt(float(variances.sum()) / runs) / max(len(variances), 1)
+
+
+def _by_velocity(values: FloatArray) -> tuple[FloatArray, FloatArray, NDArray[np.int64]]:
+    """Mean, variance and number of the values of each velocity, NaN left out."""
+    counted = np.isfinite(values)
+    runs = counted.sum(axis=1)
+    values, counted, runs = values[runs > 0], counted[runs > 0], runs[runs > 0]
+    means = np.where(counted, values, 0.0).sum(axis=1) / runs
+    squares = (np.where(counted, values - means[:, None], 0.0) ** 2).sum(axis=1)
+    return means, squares / np.maximum(runs - 1, 1), runs
 
 
 @lru_cache(maxsize=64)

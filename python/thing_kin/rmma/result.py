@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from thing_kin.rmma.intervals import Interval, mean_of_runs, wilson
+from thing_kin.rmma.intervals import Interval, mean_of_runs, sd_of_mean, wilson
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -27,14 +27,12 @@ PER_SEARCH = ("intercepted", "searched", "search_times", "position_errors", "sam
 
 @dataclass(frozen=True)
 class Spread:
-    """Standard deviations over repetitions of a short protocol, such as the thesis's ten runs.
+    """Standard deviations of what a short protocol, such as the thesis's ten runs, comes to.
 
     Parameters
     ----------
     runs : int
-        Of one repetition, at each velocity.
-    blocks : int
-        Repetitions that were compared.
+        Of the protocol, at each velocity.
     interception_rate : float
         Of the rate with the registered fiducials, 0 to 1.
     search_time : float
@@ -46,12 +44,11 @@ class Spread:
     --------
     >>> from thing_kin import rmma
     >>> spread = rmma.run(arrangement=2, method="spiral", runs=40, rng=0).spread(10)
-    >>> spread.blocks
-    4
+    >>> 0.0 < spread.interception_rate < 0.05
+    True
     """
 
     runs: int
-    blocks: int
     interception_rate: float
     search_time: float
     position_error: float
@@ -108,7 +105,8 @@ class Result:
     options: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        """Shapes that fit."""
+        """Shapes that fit; options that can go to another process."""
+        object.__setattr__(self, "options", dict(self.options))
         expected = (len(self.velocities), *self.intercepted.shape[1:2], len(self.registered))
         for name in PER_SEARCH:
             shape = getattr(self, name).shape
@@ -126,11 +124,19 @@ class Result:
         """Arrangement, method and configuration in words."""
         name = str(self.arrangement.name)
         words = [name if "arrangement" in name else f"arrangement {name}", self.method]
-        if self.options.get("config") is not None:
-            words.append(f"configuration {self.options['config']}")
+        if "config" in self.options:
+            words.append(f"configuration {self.config or 'of its own'}")
         if self.method == "covering" and self.options.get("odometry") is not None:
             words.append(f"odometry {self.options['odometry']}")
         return ", ".join(words)
+
+    @property
+    def config(self) -> int | None:
+        """Number of the filter's configuration in [X21] Tables 5.3 to 5.5, if it is one of them."""
+        from thing_kin.rmma.experiment import CONFIGS
+
+        told = self.options.get("config")
+        return next((number for number, config in CONFIGS.items() if config == told), None)
 
     @property
     def runs(self) -> int:
@@ -255,27 +261,33 @@ class Result:
         return mean_of_runs(_mean_searched(self.position_errors, self.searched, (2,)), level)
 
     def spread(self, runs: int = 10) -> Spread:
-        """How much a protocol of so few runs scatters: the same experiment cut into blocks.
+        """How much a protocol of so few runs scatters when it is repeated.
+
+        Worked out from the scatter of these runs at each velocity, runs being independent: sharper
+        than to cut them into blocks of so many, and the same with many blocks.
 
         Parameters
         ----------
         runs : int
-            Of one block at each velocity; [X21] has ten, of five velocities.
+            Of the protocol at each velocity; [X21] has ten, of five velocities.
+
+        Raises
+        ------
+        ValueError
+            If `runs` is below 1, or there is only one run here.
 
         Examples
         --------
         >>> from thing_kin import rmma
         >>> result = rmma.run(arrangement=2, method="ukf", runs=60, rng=0)
-        >>> result.spread(10).interception_rate > 0
+        >>> result.spread(10).interception_rate > result.spread(40).interception_rate
         True
         """
-        blocks = self.runs // runs if runs >= 1 else 0
-        if blocks < 2:
-            raise ValueError(f"runs: got {runs}, expected at most half of {self.runs} runs")
-        parts = [self._part(slice(k * runs, (k + 1) * runs)) for k in range(blocks)]
-        measures = ("interception_rate", "search_time", "position_error")
-        sd = (np.std([getattr(part, name) for part in parts], ddof=1) for name in measures)
-        return Spread(runs, blocks, *(float(value) for value in sd))
+        if runs < 1 or self.runs < 2:
+            raise ValueError(f"runs: got {runs} of {self.runs}, expected at least 1 of at least 2")
+        error = _mean_searched(self.position_errors, self.searched, (2,))
+        by_run = (self.intercepted.mean(axis=2), self.search_times.mean(axis=2), error)
+        return Spread(runs, *(sd_of_mean(values, runs) for values in by_run))
 
     def at_velocity(self, velocity: float) -> Result:
         """Return the part that was driven with one velocity, in m/s.

@@ -65,12 +65,14 @@ def _by_fiducial(result: Result) -> str:
 
 def distances(result: Result) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
     """(N,), m along x from the fiducial before; NaN for the first of a side, [X21] Table 5.6."""
-    ways = [np.r_[np.nan, np.abs(np.diff(side[:, 0]))] for side in result.arrangement.sides]
+    ways = [
+        np.r_[np.nan, np.abs(np.diff(np.asarray(side)[:, 0]))] for side in result.arrangement.sides
+    ]
     return np.concatenate(ways)
 
 
 def _lengths(result: Result) -> list[int]:
-    return [len(side) for side in result.arrangement.sides]
+    return [len(np.asarray(side)) for side in result.arrangement.sides]
 
 
 def _intervals(result: Result) -> str:

@@ -13,9 +13,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from thing_kin.rmma.arrangement import ARRANGEMENTS, Arrangement
+from thing_kin.rmma.experiment import VELOCITIES, run
 from thing_kin.rmma.layout import columns, millimeters, number, percent
 from thing_kin.rmma.result import Result
-from thing_kin.rmma.thesis import VELOCITIES
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -173,7 +173,8 @@ def sweep(
     Entries are computed side by side and returned in the order of the grid: arrangements outermost,
     then methods, configurations, worlds. What comes out depends neither on the executor nor on the
     number of workers nor on what else is in the grid: each entry draws its random numbers with a
-    seed made of `rng` and its names (SHA-256 of arrangement, method, configuration and world).
+    seed made of `rng` and the names of its arrangement and its world (of their SHA-256). Methods
+    and configurations so meet the same drives and can be compared run by run.
 
     Parameters
     ----------
@@ -228,17 +229,17 @@ def sweep(
     calls = [{**job.call, **common} for job in jobs]
     with contextlib.ExitStack() as stack:
         if executor is None:
-            executor = stack.enter_context(ProcessPoolExecutor(mp_context=get_context("spawn")))
-        results = _compute(executor, calls, stack.enter_context(_bar(len(calls), progress)))
+            executor = stack.enter_context(spawned_processes())
+        results = _compute(executor, calls, stack.enter_context(progress_bar(len(calls), progress)))
     return Sweep(
         tuple(SweepEntry(*job.names, job.seed, r) for job, r in zip(jobs, results, strict=True))
     )
 
 
-def entry_seed(rng: int, arrangement: str, method: str, config: int | None, world: str) -> int:
-    """Return the seed of an entry: 64 bits of the SHA-256 of its names."""
-    text = "\n".join((str(int(rng)), arrangement, method, str(config), world))
-    return int.from_bytes(hashlib.sha256(text.encode()).digest()[:8], "little")
+def entry_seed(rng: int, arrangement: str, world: str) -> int:
+    """Return the seed of an entry: 63 bits of the SHA-256 of `rng` and these names, a line each."""
+    text = f"{int(rng)}\n{arrangement}\n{world}"
+    return int.from_bytes(hashlib.sha256(text.encode()).digest()[:8], "little") >> 1
 
 
 @dataclass(frozen=True)
@@ -258,7 +259,7 @@ def _job(
 ) -> _Job:
     layout = arrangement if isinstance(arrangement, Arrangement) else _known(arrangement)
     name = str(layout.name)
-    seed = entry_seed(rng, name, label, config, world[0])
+    seed = entry_seed(rng, name, world[0])
     call: dict[str, Any] = {**options, "arrangement": arrangement, "rng": seed}
     if config is not None:
         call["config"] = config
@@ -304,15 +305,19 @@ def _compute(
     return [future.result() for future in futures]
 
 
+def spawned_processes() -> ProcessPoolExecutor:
+    """Return a process for each core, started afresh: a fork would copy locks that threads hold."""
+    return ProcessPoolExecutor(mp_context=get_context("spawn"))
+
+
 def run_entry(call: Mapping[str, Any]) -> Result:
     """Run one entry, in whatever process this is."""
-    from thing_kin.rmma.experiment import run
-
     return run(**call)
 
 
 @contextlib.contextmanager
-def _bar(total: int, wanted: bool) -> Iterator[Callable[[], object]]:
+def progress_bar(total: int, wanted: bool) -> Iterator[Callable[[], object]]:
+    """Show a bar on stderr if tqdm is there; yields what moves it on by one."""
     try:
         from tqdm import tqdm
     except ImportError:

@@ -7,6 +7,7 @@ from math import isnan, nan
 from typing import TYPE_CHECKING
 
 from thing_kin.rmma import reference, thesis
+from thing_kin.rmma.experiment import CONFIGS
 from thing_kin.rmma.layout import columns, millimeters, number, percent
 from thing_kin.rmma.result_text import distances
 
@@ -130,9 +131,9 @@ def table_of_velocities(results: Results) -> str:
 
 
 def _configuration(config: int) -> str:
-    p = thesis.CONFIGURATIONS[config]
-    values = f"gap {1e3 * p.sample_gap:g} mm, Q {p.process:g}, R {p.interception:g}"
-    return f"{config}: {values}, P {p.initial:g}"
+    c = CONFIGS[config]
+    values = f"gap {1e3 * c.sample_gap:g} mm, Q {c.q:g}, R {c.r_interception:g}, P {c.p:g}"
+    return f"{config}: {values}"
 
 
 def _side_by_side(rows: Iterable[tuple[str, Result, Measures]]) -> str:
@@ -156,8 +157,8 @@ def _side_by_side(rows: Iterable[tuple[str, Result, Measures]]) -> str:
 
 
 def ten_runs(result: Result) -> tuple[float, float, float]:
-    """Return the ten-run protocol's standard deviations; NaN with fewer than two blocks."""
-    if result.runs < 2 * thesis.RUNS:
+    """Return the ten-run protocol's standard deviations; NaN with one run."""
+    if result.runs < 2:
         return nan, nan, nan
     spread: Spread = result.spread(thesis.RUNS)
     return spread.interception_rate, spread.search_time, spread.position_error

@@ -10,7 +10,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from math import nan
 
-VELOCITIES = (0.010, 0.015, 0.020, 0.025, 0.030)  #: m/s, [X21] 4.4
 RUNS = 10  #: at each velocity
 
 
@@ -21,17 +20,6 @@ class Measures:
     interception_rate: float
     search_time: float
     position_error: float = nan
-
-
-@dataclass(frozen=True)
-class Parameters:
-    """A configuration of Tables 5.3 to 5.5; variances in m^2 and (m/s)^2, the gap in m."""
-
-    sample_gap: float
-    process: float
-    interception: float
-    failure: float
-    initial: float
 
 
 @dataclass(frozen=True)
@@ -92,17 +80,6 @@ FIRST_SERIES: Mapping[tuple[int, int], Measures] = {
     (1, 6): _row(90.67, 2.52, 9.96),
     (2, 2): _row(95.00, 0.66, 6.78),
     (3, 2): _row(71.56, 3.14, 8.61),
-}
-
-#: Configurations of Tables 5.3 to 5.5. `sample_gap` is printed without a unit and read as cm.
-CONFIGURATIONS: Mapping[int, Parameters] = {
-    1: Parameters(0.005, 6e-8, 4e-8, 4e-4, 6e-8),
-    2: Parameters(0.010, 6e-8, 4e-8, 4e-4, 6e-8),
-    3: Parameters(0.015, 6e-8, 4e-8, 4e-4, 6e-8),
-    4: Parameters(0.005, 4e-8, 4e-8, 4e-4, 4e-8),
-    5: Parameters(0.005, 1e-7, 4e-7, 4e-4, 6e-8),
-    6: Parameters(0.005, 6e-8, 4e-8, 4e-4, 1e-7),
-    7: Parameters(0.010, 6e-8, 4e-8, 4e-4, 1e-7),
 }
 
 #: Tables 5.6 to 5.8: rates of the fiducials that are not registered, of 50 searches each.
