@@ -77,7 +77,9 @@ def test_beats_the_spiral_on_a_narrow_belief() -> None:
 def test_windows() -> None:
     square = np.array([[0, 0], [0.1, 0], [0.1, 0.1], [0, 0.1]])
     inside = search.covering((0, 0), COVARIANCE, 0.008, within=square).points
-    assert len(inside) > 5 and (inside >= 0).all() and (inside <= 0.1).all()
+    assert len(inside) > 5
+    assert (inside >= 0).all()
+    assert (inside <= 0.1).all()
     plan = search.covering(
         (0, 0), COVARIANCE, 0.008, reach_center=(0.0, 0.0), reach_radius=0.03, velocity=(-0.01, 0.0)
     )
@@ -85,12 +87,14 @@ def test_windows() -> None:
     assert (np.linalg.norm(plan.points - carrier, axis=1) <= 0.03 + 1e-12).all()
     assert search.covering((0, 0), COVARIANCE, 0.008, deadline=2.0).times.max() <= 2.0
     nowhere = search.covering((0, 0), COVARIANCE, 0.008, reach_center=(5.0, 0.0), reach_radius=0.1)
-    assert len(nowhere) == 0 and "0 stops" in repr(nowhere)
+    assert len(nowhere) == 0
+    assert "0 stops" in repr(nowhere)
 
 
 def test_a_region_without_uncertainty_is_one_look_and_a_second_one() -> None:
     plan = search.covering((0, 0), np.zeros((2, 2)), 0.01, count=3)
-    assert (plan.points[0] == 0).all() and plan.found[0] > 0.94
+    assert (plan.points[0] == 0).all()
+    assert plan.found[0] > 0.94
 
 
 @pytest.mark.parametrize(

@@ -132,7 +132,7 @@ void bind_experiment(py::module_& m) {
         return attempts_array(attempts, speeds.count, static_cast<py::ssize_t>(runs));
       },
       py::arg("sides"), py::arg("velocities"), py::arg("runs"), py::arg("options"), py::arg("seed"),
-      py::arg("world"), py::arg("arm"), py::arg("threads"));
+      py::arg("world"), py::arg("arm").none(true), py::arg("threads"));
 
   m.def(
       "trace_run",
@@ -154,7 +154,7 @@ void bind_experiment(py::module_& m) {
         return py::make_tuple(attempts_array(attempts, 1, 1), list);
       },
       py::arg("sides"), py::arg("velocity"), py::arg("options"), py::arg("seed"), py::arg("run"),
-      py::arg("world"), py::arg("arm"));
+      py::arg("world"), py::arg("arm").none(true));
 
   m.def(
       "drive_key",

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy
 import numpy.random
 import numpy.typing
+import thing_kin._core
 import typing
-__all__: list[str] = ['CoveringPlan', 'OdometryUse', 'SearchMethod', 'SearchOptions', 'World', 'WorldRun', 'compensate', 'covering', 'drive_key', 'next_fiducial', 'read_seed', 'run_experiment', 'spiral', 'start_run', 'stochastic', 'trace_run']
+__all__: list[str] = ['CoveringPlan', 'ManipulatorArm', 'OdometryUse', 'SearchMethod', 'SearchOptions', 'World', 'WorldRun', 'compensate', 'covering', 'drive_key', 'next_fiducial', 'read_seed', 'run_experiment', 'spiral', 'start_run', 'stochastic', 'trace_run']
 class CoveringPlan:
     """
     A search in advance, as it goes while nothing is found.
@@ -240,6 +241,49 @@ class WorldRun:
         """
         s from one reading of the laser to the next.
         """
+class ManipulatorArm:
+    """
+    A real arm for the experiment, instead of the thesis's simplified one.
+    
+    The tool points down at a fixed height; the arm's inverse kinematics, in closed form, decides where
+    it can be, and its joints' velocity and acceleration limits how long a motion takes. What a motion of
+    no length takes is the world's own overhead.
+    
+    Parameters
+    ----------
+    chain : Chain
+        Six joints with a closed form, fixed or on an omnidirectional base: `robots.pioneer_lx_ur5()`.
+    height : float
+        m of the tool, in the frame of the base.
+    turn : float
+        rad of the tool about the vertical.
+    
+    Raises
+    ------
+    ValueError
+        If the chain has no closed form, a joint no limits, or a number is not finite.
+    
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> from thing_kin import rmma
+    >>> arm = rmma.ManipulatorArm(tk.robots.pioneer_lx_ur5())
+    >>> arm.reaches((0.2, 0.6)), arm.reaches((0.2, 1.6))
+    (True, False)
+    """
+    def __init__(self, chain: thing_kin._core.Chain, height: typing.SupportsFloat | typing.SupportsIndex = 0.7, turn: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
+        ...
+    def motion_time(self, a: numpy.typing.ArrayLike, b: numpy.typing.ArrayLike) -> float:
+        """
+        s from displacement `a`, (2,) m, to `b`, from rest to rest, without overhead.
+        """
+    def reaches(self, displacement: numpy.typing.ArrayLike) -> bool:
+        """
+        Whether the tool can be at (2,), m from the base.
+        """
+    @property
+    def chain(self) -> thing_kin._core.Chain:
+        ...
 class SearchMethod:
     """
     Members:
@@ -427,7 +471,7 @@ def next_fiducial(x: numpy.typing.ArrayLike, previous: typing.SupportsInt | typi
     ...
 def read_seed(rng: int | numpy.random.Generator | None) -> int:
     ...
-def run_experiment(sides: list, velocities: numpy.typing.ArrayLike, runs: typing.SupportsInt | typing.SupportsIndex, options: SearchOptions, seed: typing.SupportsInt | typing.SupportsIndex, world: typing.Any, threads: typing.SupportsIndex | None) -> numpy.typing.NDArray[numpy.float64]:
+def run_experiment(sides: list, velocities: numpy.typing.ArrayLike, runs: typing.SupportsInt | typing.SupportsIndex, options: SearchOptions, seed: typing.SupportsInt | typing.SupportsIndex, world: typing.Any, arm: ManipulatorArm, threads: typing.SupportsIndex | None) -> numpy.typing.NDArray[numpy.float64]:
     ...
 def spiral(center: numpy.typing.ArrayLike, gap: typing.SupportsFloat | typing.SupportsIndex, spacing: typing.SupportsFloat | typing.SupportsIndex | None = None, radius: typing.SupportsFloat | typing.SupportsIndex | None = None, count: typing.Any = None) -> numpy.typing.NDArray[numpy.float64]:
     """
@@ -504,5 +548,5 @@ def stochastic(center: numpy.typing.ArrayLike, covariance: numpy.typing.ArrayLik
     >>> points.shape, points[0]
     ((5, 2), array([1., 2.]))
     """
-def trace_run(sides: list, velocity: typing.SupportsFloat | typing.SupportsIndex, options: SearchOptions, seed: typing.SupportsInt | typing.SupportsIndex, run: typing.SupportsInt | typing.SupportsIndex, world: typing.Any) -> tuple[numpy.typing.NDArray[numpy.float64], list]:
+def trace_run(sides: list, velocity: typing.SupportsFloat | typing.SupportsIndex, options: SearchOptions, seed: typing.SupportsInt | typing.SupportsIndex, run: typing.SupportsInt | typing.SupportsIndex, world: typing.Any, arm: ManipulatorArm) -> tuple[numpy.typing.NDArray[numpy.float64], list]:
     ...

@@ -2,7 +2,7 @@
 
 from thing_kin._search import ManipulatorArm, WorldRun
 from thing_kin.rmma.arrangement import ARRANGEMENTS, Arrangement
-from thing_kin.rmma.experiment import CONFIGS, Config, WorldLike, run, trace
+from thing_kin.rmma.experiment import CONFIGS, Config, Method, Odometry, WorldLike, run, trace
 from thing_kin.rmma.practices import Practice, practice
 from thing_kin.rmma.reproduction import Reproduction, reproduce
 from thing_kin.rmma.result import Result, Spread
@@ -17,6 +17,8 @@ __all__ = [
     "Arrangement",
     "Config",
     "ManipulatorArm",
+    "Method",
+    "Odometry",
     "Practice",
     "Reproduction",
     "Result",
