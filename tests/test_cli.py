@@ -97,17 +97,6 @@ def test_without_plots_neither_matplotlib_nor_tqdm_is_needed(tmp_path, capsys, m
     assert capsys.readouterr().err == ""
 
 
-def test_rmma_reports_on_stdout_and_writes_the_same(tmp_path, capsys):
-    arguments = ["rmma", "--brief", "--no-plots", "--runs", "20", "--out", str(tmp_path / "out")]
-    assert main(arguments) == 0
-    output = capsys.readouterr()
-    written = tmp_path / "out" / "report.md"
-    assert written.read_text(encoding="utf-8") in output.out
-    assert "Table 5.2" in output.out
-    assert "searching" in output.err
-    assert not [path for path in written.parent.iterdir() if path.suffix == ".png"]
-
-
 def test_rmma_with_a_failed_check_is_exit_code_1(tmp_path, capsys, monkeypatch):
     done = SimpleNamespace(
         report=lambda: "report",

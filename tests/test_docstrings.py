@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import pytest
 
 import thing_kin as tk
-from thing_kin import estimation, interop, kdl, lie, odometry, robots, terms
+from thing_kin import estimation, interop, kdl, lie, odometry, rmma, robots, terms
 
-MODULES = (tk, lie, robots, terms, kdl, interop, estimation, estimation.models, odometry)
+MODULES = (tk, lie, robots, terms, kdl, interop, estimation, estimation.models, odometry, rmma)
 
 
 def public_things() -> Iterator[tuple[str, object]]:
@@ -34,7 +34,8 @@ def class_and_members(path: str, thing: type) -> Iterator[tuple[str, object]]:
 THINGS = dict(public_things())
 PROPERTIES = {path for path, thing in THINGS.items() if isinstance(thing, property)}
 MODULES_ALONE = {
-    module.__name__ for module in (lie, robots, terms, kdl, estimation, estimation.models, odometry)
+    module.__name__
+    for module in (lie, robots, terms, kdl, estimation, estimation.models, odometry, rmma)
 }
 WITH_EXAMPLES = sorted(set(THINGS) - PROPERTIES - MODULES_ALONE)
 

@@ -11,6 +11,7 @@ import pytest
 
 import rmma_cases
 from thing_kin import rmma
+from thing_kin.cli import main
 from thing_kin.rmma import discussion, reference, report, reproduction, thesis, world_table
 from thing_kin.rmma.reference_worlds import METHODS, WORLDS
 
@@ -167,6 +168,24 @@ def test_figures(done, tmp_path, monkeypatch):
     for name in some:
         assert (tmp_path / name).stat().st_size > 20_000
         assert f"![{name}]({name})" in (tmp_path / "report.md").read_text(encoding="utf-8")
+
+
+def test_the_command_reports_on_stdout_and_writes_the_same(done, tmp_path, capsys, monkeypatch):
+    asked = []
+
+    def reproduce(*arguments, **options):
+        asked.append((arguments, options))
+        return done
+
+    monkeypatch.setattr(rmma, "reproduce", reproduce)
+    out = tmp_path / "new" / "out"
+    arguments = ["rmma", "--brief", "--no-plots", "--runs", "20", "--seed", "3", "--out", str(out)]
+    assert main(arguments) == 0
+    assert asked == [((20,), {"rng": 3, "brief": True, "progress": True})]
+    printed = capsys.readouterr().out
+    assert printed.startswith((out / "report.md").read_text(encoding="utf-8"))
+    assert printed.splitlines()[-1].startswith(f"written to {out}: report.md, results.csv, ")
+    assert not [path for path in out.iterdir() if path.suffix == ".png"]
 
 
 def test_too_few_runs_are_refused():
