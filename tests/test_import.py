@@ -42,6 +42,9 @@ def test_it_loads_numpy_only() -> None:
         "thing_kin.estimation",
         "thing_kin._odometry",
         "thing_kin.odometry",
+        "thing_kin._search",
+        "thing_kin.search",
+        "thing_kin.rmma",
     ):
         assert heavy not in loaded
 
@@ -62,6 +65,14 @@ def test_odometry_is_loaded_on_demand() -> None:
     assert "thing_kin._odometry" in loaded
     assert "thing_kin._estimation" not in loaded
     assert foreign(loaded) == foreign(modules_after("import thing_kin, numpy, numpy.typing"))
+
+
+def test_search_is_loaded_on_demand() -> None:
+    loaded = modules_after("from thing_kin import rmma, search")
+    assert "thing_kin._search" in loaded
+    for heavy in ("thing_kin._estimation", "matplotlib", "pandas", "tqdm"):
+        assert heavy not in loaded
+    assert "thing_kin.rmma" not in modules_after("from thing_kin import search")
 
 
 def test_ceres_is_loaded_on_demand() -> None:
