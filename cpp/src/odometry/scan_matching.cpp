@@ -262,6 +262,7 @@ void write_covariance(const Matrix3d& B, const Directions& told, const Matrix3d&
     match.untold.col(k) = v;
   }
   match.degenerate = told.untold;
+  match.arm = unit.z();
   for (int i = 0; i < 3; ++i) {
     match.told.col(i) = Matcher::along_told(told, Vector3d::Unit(i));
   }
