@@ -25,7 +25,20 @@ constexpr double kLineRadius = 0.25;
 // In that mean one surfel counts as so many points at most.
 constexpr double kMostShare = 5.0;
 
-std::int32_t cell_of(double v) noexcept { return static_cast<std::int32_t>(std::floor(v / kCell)); }
+// From v to the cells' row or column.
+double gap_to(std::int32_t cell, double v) noexcept {
+  return std::max({cell * kCell - v, v - (cell + 1) * kCell, 0.0});
+}
+
+// The floor, without a call of the library's.
+std::int32_t cell_of(double v) noexcept {
+  const double cells = v * (1.0 / kCell);
+  const auto cell = static_cast<std::int32_t>(cells);
+  return cell - (cells < cell ? 1 : 0);
+}
+
+// 0, -1, 1, -2, 2, ...: cells from the own one outwards.
+std::int32_t outwards(std::int32_t n) noexcept { return n % 2 == 0 ? n / 2 : -(n + 1) / 2; }
 
 }  // namespace
 
@@ -35,7 +48,7 @@ std::size_t LocalMap::entry_of(std::int32_t x, std::int32_t y) const noexcept {
   std::uint64_t hash = key * 0x9E3779B97F4A7C15ULL;
   hash ^= hash >> 32U;
   std::size_t entry = hash & (cells_.size() - 1);
-  while (cells_[entry].first >= 0 && (cells_[entry].x != x || cells_[entry].y != y)) {
+  while (cells_[entry].first != kNoCell && (cells_[entry].x != x || cells_[entry].y != y)) {
     entry = (entry + 1) & (cells_.size() - 1);
   }
   return entry;
@@ -54,9 +67,31 @@ void LocalMap::enlist(std::int32_t surfel) {
   const std::int32_t x = cell_of(p.x());
   const std::int32_t y = cell_of(p.y());
   Cell& cell = cells_[entry_of(x, y)];
-  used_ += cell.first < 0 ? 1 : 0;
+  used_ += cell.first == kNoCell ? 1 : 0;
   entries_[static_cast<std::size_t>(surfel)].next = cell.first;
   cell = {.x = x, .y = y, .first = surfel};
+}
+
+// A surfel's mean goes there, with it from one cell's list to another's.
+void LocalMap::move(std::int32_t surfel, const Vector2d& p) {
+  Entry& entry = entries_[static_cast<std::size_t>(surfel)];
+  const Vector2d before = entry.p;
+  surfels_[static_cast<std::size_t>(surfel)].p = p;
+  entry.p = p;
+  if (cell_of(before.x()) == cell_of(p.x()) && cell_of(before.y()) == cell_of(p.y())) {
+    return;
+  }
+  Cell& cell = cells_[entry_of(cell_of(before.x()), cell_of(before.y()))];
+  if (cell.first == surfel) {
+    cell.first = entry.next < 0 ? kNoSurfel : entry.next;
+  } else {
+    std::int32_t k = cell.first;
+    while (entries_[static_cast<std::size_t>(k)].next != surfel) {
+      k = entries_[static_cast<std::size_t>(k)].next;
+    }
+    entries_[static_cast<std::size_t>(k)].next = entry.next;
+  }
+  enlist(surfel);
 }
 
 // All surfels anew, in a table at most a quarter full.
@@ -65,7 +100,7 @@ void LocalMap::rehash() {
   while (size < 4 * (surfels_.size() + 1)) {
     size *= 2;
   }
-  cells_.assign(size, Cell{.x = 0, .y = 0, .first = -1});
+  cells_.assign(size, Cell{.x = 0, .y = 0, .first = kNoCell});
   used_ = 0;
   entries_.clear();
   for (const Surfel& surfel : surfels_) {
@@ -132,14 +167,12 @@ void LocalMap::insert(const PlanarScan& scan, const Pose2& pose, double clock) {
     }
     Surfel& surfel = surfels_[static_cast<std::size_t>(known)];
     const double weight = std::min(surfel.weight, kMostPoints);
-    // The surfel stays in its cell's list though its mean may leave the cell by some centimetres.
-    surfel.p = (surfel.p * weight + p) / (weight + 1.0);
+    move(known, (surfel.p * weight + p) / (weight + 1.0));
     if (surfel.is_surface()) {
       surfel.normal = (surfel.normal * weight + normal).normalized();
     }
     surfel.weight = weight + 1.0;
     surfel.seen = clock;
-    entries_[static_cast<std::size_t>(known)].p = surfel.p;
     entries_[static_cast<std::size_t>(known)].normal = surfel.normal;
     changed_.push_back(known);
   }
@@ -175,7 +208,7 @@ void LocalMap::forget(const Vector2d& center, double radius, double oldest) {
 void LocalMap::clear() noexcept {
   surfels_.clear();
   entries_.clear();
-  std::ranges::fill(cells_, Cell{.x = 0, .y = 0, .first = -1});
+  std::ranges::fill(cells_, Cell{.x = 0, .y = 0, .first = kNoCell});
   used_ = 0;
 }
 
@@ -213,16 +246,37 @@ void LocalMap::draw_line(Surfel& surfel) const noexcept {
 
 const Surfel* LocalMap::nearest(const Vector2d& p, const Vector2d& normal,
                                 double distance) const noexcept {
+  if (surfels_.empty()) {
+    return nullptr;
+  }
   const bool surface = !normal.isZero(0.0);
+  const std::int32_t x = cell_of(p.x());
+  const std::int32_t y = cell_of(p.y());
   std::int32_t found = -1;
   double least = distance * distance;
-  visit_near(p, distance, [&](std::int32_t k, const Entry& entry, double distance2) {
-    if (distance2 < least &&
-        (!surface || (entry.is_surface() && entry.normal.dot(normal) >= kSameSide))) {
-      least = distance2;
-      found = k;
+  const std::int32_t cells = 2 * (cell_of(distance) + 1) + 1;
+  // Cells beyond the nearest so far are left out.
+  for (std::int32_t i = 0; i < cells; ++i) {
+    const std::int32_t column = x + outwards(i);
+    const double gap_x = gap_to(column, p.x());
+    for (std::int32_t j = 0; j < cells && gap_x * gap_x < least; ++j) {
+      const std::int32_t row = y + outwards(j);
+      const double gap_y = gap_to(row, p.y());
+      if (gap_x * gap_x + gap_y * gap_y >= least) {
+        continue;
+      }
+      for (std::int32_t k = first_of(column, row); k >= 0;) {
+        const Entry& entry = entries_[static_cast<std::size_t>(k)];
+        const double distance2 = (entry.p - p).squaredNorm();
+        if (distance2 < least &&
+            (!surface || (entry.is_surface() && entry.normal.dot(normal) >= kSameSide))) {
+          least = distance2;
+          found = k;
+        }
+        k = entry.next;
+      }
     }
-  });
+  }
   return found < 0 ? nullptr : &surfels_[static_cast<std::size_t>(found)];
 }
 

@@ -50,11 +50,14 @@ class LocalMap {
   struct Cell {
     std::int32_t x;
     std::int32_t y;
-    std::int32_t first;  ///< of the cell's surfels; -1: an empty entry
+    std::int32_t first;  ///< of the cell's surfels; or one of those below
   };
+  static constexpr std::int32_t kNoCell = -1;    ///< an entry of the table that no cell has
+  static constexpr std::int32_t kNoSurfel = -2;  ///< a cell that all surfels have left
   std::size_t entry_of(std::int32_t x, std::int32_t y) const noexcept;
   std::int32_t first_of(std::int32_t x, std::int32_t y) const noexcept;
   void enlist(std::int32_t surfel);
+  void move(std::int32_t surfel, const Eigen::Vector2d& p);
   void rehash();
   template <typename Visit>
   void visit_near(const Eigen::Vector2d& p, double distance, Visit&& visit) const noexcept;
@@ -62,7 +65,7 @@ class LocalMap {
   void draw_lines();
   void draw_line(Surfel& surfel) const noexcept;
 
-  // What a search reads of a surfel, and the next of the same cell; -1: none.
+  // What a search reads of a surfel, and the next of the same cell; < 0: none.
   struct Entry {
     Eigen::Vector2d p;
     Eigen::Vector2d normal;
