@@ -22,19 +22,22 @@ constexpr double kSameSide = 0.5;
 constexpr double kSameLine = 0.8;
 // A line is a mean over this radius, in m, where weights fall to zero.
 constexpr double kLineRadius = 0.25;
+// m; a pair is kept for so much at most, as looking further costs.
+constexpr double kMostSlack = 0.02;
 // In that mean one surfel counts as so many points at most.
 constexpr double kMostShare = 5.0;
-
-// From v to the cells' row or column.
-double gap_to(std::int32_t cell, double v) noexcept {
-  return std::max({cell * kCell - v, v - (cell + 1) * kCell, 0.0});
-}
 
 // The floor, without a call of the library's.
 std::int32_t cell_of(double v) noexcept {
   const double cells = v * (1.0 / kCell);
   const auto cell = static_cast<std::int32_t>(cells);
   return cell - (cells < cell ? 1 : 0);
+}
+
+// From a place in a cell, seen from its lower end, to the cells so many further.
+double squared_gap(std::int32_t further, double inside) noexcept {
+  const double gap = further > 0 ? further * kCell - inside : inside - (further + 1) * kCell;
+  return further == 0 ? 0.0 : gap * gap;
 }
 
 // 0, -1, 1, -2, 2, ...: cells from the own one outwards.
@@ -244,40 +247,71 @@ void LocalMap::draw_line(Surfel& surfel) const noexcept {
   }
 }
 
-const Surfel* LocalMap::nearest(const Vector2d& p, const Vector2d& normal,
-                                double distance) const noexcept {
+// Surfels that a point with this normal may lie on, of the own cell first, then outwards; the
+// visitor draws the bound in, and cells beyond are left out.
+template <typename Visit>
+void LocalMap::visit_facing(const Vector2d& p, const Vector2d& normal, const double& bound2,
+                            Visit&& visit) const noexcept {
   if (surfels_.empty()) {
-    return nullptr;
+    return;
   }
   const bool surface = !normal.isZero(0.0);
   const std::int32_t x = cell_of(p.x());
   const std::int32_t y = cell_of(p.y());
-  std::int32_t found = -1;
-  double least = distance * distance;
-  const std::int32_t cells = 2 * (cell_of(distance) + 1) + 1;
-  // Cells beyond the nearest so far are left out.
+  const Vector2d inside(p.x() - x * kCell, p.y() - y * kCell);
+  const std::int32_t cells = 2 * (cell_of(std::sqrt(bound2)) + 1) + 1;
   for (std::int32_t i = 0; i < cells; ++i) {
-    const std::int32_t column = x + outwards(i);
-    const double gap_x = gap_to(column, p.x());
-    for (std::int32_t j = 0; j < cells && gap_x * gap_x < least; ++j) {
-      const std::int32_t row = y + outwards(j);
-      const double gap_y = gap_to(row, p.y());
-      if (gap_x * gap_x + gap_y * gap_y >= least) {
+    const std::int32_t column = outwards(i);
+    const double gap_x2 = squared_gap(column, inside.x());
+    for (std::int32_t j = 0; j < cells && gap_x2 < bound2; ++j) {
+      const std::int32_t row = outwards(j);
+      if (gap_x2 + squared_gap(row, inside.y()) >= bound2) {
         continue;
       }
-      for (std::int32_t k = first_of(column, row); k >= 0;) {
+      for (std::int32_t k = first_of(x + column, y + row); k >= 0;) {
         const Entry& entry = entries_[static_cast<std::size_t>(k)];
         const double distance2 = (entry.p - p).squaredNorm();
-        if (distance2 < least &&
+        if (distance2 < bound2 &&
             (!surface || (entry.is_surface() && entry.normal.dot(normal) >= kSameSide))) {
-          least = distance2;
-          found = k;
+          visit(k, distance2);
         }
         k = entry.next;
       }
     }
   }
+}
+
+const Surfel* LocalMap::nearest(const Vector2d& p, const Vector2d& normal,
+                                double distance) const noexcept {
+  std::int32_t found = -1;
+  double least = distance * distance;
+  visit_facing(p, normal, least, [&](std::int32_t k, double distance2) {
+    least = distance2;
+    found = k;
+  });
   return found < 0 ? nullptr : &surfels_[static_cast<std::size_t>(found)];
+}
+
+LocalMap::Nearest LocalMap::nearest_of_two(const Vector2d& p, const Vector2d& normal,
+                                           double distance) const noexcept {
+  std::int32_t found = -1;
+  double least = distance * distance;
+  double bound = least;  // of the second, which is not asked for beyond a slack of kMostSlack
+  visit_facing(p, normal, bound, [&](std::int32_t k, double distance2) {
+    if (distance2 >= least) {
+      bound = distance2;
+      return;
+    }
+    const double reach = std::sqrt(distance2) + 2.0 * kMostSlack;
+    bound = std::min(found < 0 ? bound : least, reach * reach);
+    least = distance2;
+    found = k;
+  });
+  if (found < 0) {
+    return {.surfel = nullptr, .slack = 0.0};
+  }
+  return {.surfel = &surfels_[static_cast<std::size_t>(found)],
+          .slack = 0.5 * (std::sqrt(bound) - std::sqrt(least))};
 }
 
 }  // namespace thing_kin

@@ -44,6 +44,14 @@ class LocalMap {
   const Surfel* nearest(const Eigen::Vector2d& p, const Eigen::Vector2d& normal,
                         double distance) const noexcept;
 
+  /// The same; and how far p may move so that it stays the nearest, whatever `distance` is then.
+  struct Nearest {
+    const Surfel* surfel;
+    double slack;  ///< m; of none 0
+  };
+  Nearest nearest_of_two(const Eigen::Vector2d& p, const Eigen::Vector2d& normal,
+                         double distance) const noexcept;
+
   const std::vector<Surfel>& surfels() const noexcept { return surfels_; }
 
  private:
@@ -59,6 +67,9 @@ class LocalMap {
   void enlist(std::int32_t surfel);
   void move(std::int32_t surfel, const Eigen::Vector2d& p);
   void rehash();
+  template <typename Visit>
+  void visit_facing(const Eigen::Vector2d& p, const Eigen::Vector2d& normal, const double& bound2,
+                    Visit&& visit) const noexcept;
   template <typename Visit>
   void visit_near(const Eigen::Vector2d& p, double distance, Visit&& visit) const noexcept;
   std::int32_t mergeable(const Eigen::Vector2d& p, const Eigen::Vector2d& normal) const noexcept;
