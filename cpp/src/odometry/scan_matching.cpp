@@ -74,11 +74,11 @@ struct Kept {
   double distance = 0.0;
 };
 
-// Its surfel within `distance`, which doesn't grow from call to call.
+// Its surfel within `distance`.
 const Surfel* paired(const LocalMap& map, const Vector2d& p, const Vector2d& normal, double theta,
                      double distance, Kept& kept) {
   const double room = kept.surfel != nullptr ? kept.slack : kept.distance - distance;
-  if (kept.slack < 0.0 || std::abs(theta - kept.theta) > kKeptTurn ||
+  if (kept.slack < 0.0 || std::abs(theta - kept.theta) > kKeptTurn || room < 0.0 ||
       (p - kept.p).squaredNorm() > room * room) {
     const LocalMap::Nearest found = map.nearest_of_two(p, normal, distance);
     kept = {
@@ -186,7 +186,7 @@ class Matcher {
  public:
   Matcher(const LocalMap& map, const PlanarScan& scan, const MatchGuess& guess,
           const MatchOptions& options)
-      : map_(map), scan_(scan), guess_(guess), options_(options) {
+      : map_(map), scan_(scan), guess_(guess), options_(options), kept_(scan.size()) {
     Matrix3d P = guess.covariance;
     P.diagonal() += Vector3d(kFloor * kFloor, kFloor * kFloor, kFloorTurn * kFloorTurn);
     distrust_ = P.inverse();
@@ -200,6 +200,8 @@ class Matcher {
 
   Fit fit(const Pose2& start) { return descend(start, first_distance_, nullptr); }
 
+  std::vector<Kept>& kept() { return kept_; }
+
   // On from a fit, along directions that are told.
   Fit polish(const Pose2& start, const Directions& frozen) {
     return descend(start, kLastDistance, &frozen);
@@ -208,7 +210,6 @@ class Matcher {
  private:
   Fit descend(const Pose2& start, double distance, const Directions* frozen) {
     Fit fit{.pose = start, .normal = {}};
-    kept_.assign(scan_.size(), Kept{});
     for (;;) {
       fit.normal = normal_at(map_, scan_, fit.pose, distance, kept_);
       const bool last = distance <= kLastDistance;
@@ -258,9 +259,9 @@ class Matcher {
 
 // The scan's noise and, through the surfels, the map's, carried to the pose; where residuals are
 // larger than noise explains, both grow with them.
-Matrix3d spread_of(const LocalMap& map, const PlanarScan& scan, const Fit& fit, double noise) {
+Matrix3d spread_of(const LocalMap& map, const PlanarScan& scan, const Fit& fit, double noise,
+                   std::vector<Kept>& kept) {
   std::vector<int> hits(map.surfels().size(), 0);
-  std::vector<Kept> kept(scan.size());
   const auto index = [&](const Surfel* surfel) {
     return static_cast<std::size_t>(surfel - map.surfels().data());
   };
@@ -401,7 +402,8 @@ ScanMatch match_scan(const LocalMap& map, const PlanarScan& scan, const MatchGue
     match.pose = best.pose;
     match.pose.z() = wrap_angle(match.pose.z());
     match.status = best.converged ? MatchStatus::kConverged : MatchStatus::kIterationLimit;
-    write_covariance(spread_of(map, thinned, best, noise), told, guess.covariance, match);
+    write_covariance(spread_of(map, thinned, best, noise, matcher.kept()), told, guess.covariance,
+                     match);
   }
   match.fitness = fitness;
   match.inliers = static_cast<double>(best.normal.inliers) / static_cast<double>(thinned.size());
