@@ -1,6 +1,7 @@
 #include "thing_kin/odometry/local_map.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -65,6 +66,7 @@ TEST(LocalMap, FindsTheNearestOfAllThatFace) {
       EXPECT_GT(map.surfels().size(), 50U);
     }
     int found = 0;
+    int kept = 0;
     for (int k = 0; k < 2000; ++k) {
       const Vector2d p(at(generator) + 1.0, at(generator) + 2.0);
       const Vector2d& normal = normals[static_cast<std::size_t>(k) % normals.size()];
@@ -79,9 +81,17 @@ TEST(LocalMap, FindsTheNearestOfAllThatFace) {
         }
       }
       EXPECT_EQ(map.nearest(p, normal, 0.4), expected);
+      const auto [same, slack] = map.nearest_of_two(p, normal, 0.4);
+      EXPECT_EQ(same, expected);
+      if (same != nullptr) {  // it stays the nearest while p moves by less, wherever to
+        const Vector2d way(std::cos(k), std::sin(k));
+        EXPECT_EQ(map.nearest(p + 0.999 * slack * way, normal, 1.0), expected);
+        kept += slack > 0.01 ? 1 : 0;
+      }
       found += expected != nullptr ? 1 : 0;
     }
     EXPECT_GT(found, 100);
+    EXPECT_GT(kept, 50);
   }
 }
 
