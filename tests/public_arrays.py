@@ -563,7 +563,12 @@ SEARCH = [
     Argument("compensate", "points", POINTS, compensated("points")),
     Argument("compensate", "velocity", XI[:2], compensated("velocity")),
     Argument("compensate", "dwell", np.array([0.0, 0.1, 0.3]), compensated("dwell")),
-    *(Argument("covering", k, v, covered(k), moderate=True) for k, v in COVERED.items()),
+    *(Argument("covering of", k, v, covered(k), moderate=True) for k, v in BELIEF.items()),
+    *(
+        Argument("covering", k, v, covered(k), moderate=True)
+        for k, v in COVERED.items()
+        if k not in BELIEF
+    ),
     Argument("WorldRun.place", "u_command", np.array([0.1, 0.6]), driven("u_command")),
     Argument("WorldRun.detects", "tool_xy", np.zeros(2), driven("tool_xy"), moderate=True),
     Argument("WorldRun.detects", "fiducial", np.zeros(2), driven("fiducial"), moderate=True),
@@ -910,4 +915,7 @@ REQUIRED = (
     "at_least",
     "between",
     "BaseLocalizer",
+    "spiral",
+    "stochastic",
+    "covering of",
 )
