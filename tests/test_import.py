@@ -42,6 +42,9 @@ def test_it_loads_numpy_only() -> None:
         "thing_kin.estimation",
         "thing_kin._odometry",
         "thing_kin.odometry",
+        "thing_kin._search",
+        "thing_kin.search",
+        "thing_kin.rmma",
     ):
         assert heavy not in loaded
 
@@ -61,6 +64,14 @@ def test_odometry_is_loaded_on_demand() -> None:
     loaded = modules_after("from thing_kin import odometry")
     assert "thing_kin._odometry" in loaded
     assert "thing_kin._estimation" not in loaded
+    assert foreign(loaded) == foreign(modules_after("import thing_kin, numpy, numpy.typing"))
+
+
+@pytest.mark.parametrize("module", ["search", "rmma"])
+def test_searches_are_loaded_on_demand(module: str) -> None:
+    loaded = modules_after(f"from thing_kin import {module}")
+    assert "thing_kin._search" in loaded
+    assert not {"matplotlib", "pandas", "tqdm", "thing_kin._estimation"} & loaded
     assert foreign(loaded) == foreign(modules_after("import thing_kin, numpy, numpy.typing"))
 
 

@@ -172,6 +172,11 @@ def practice(
     -------
     Practice
 
+    Raises
+    ------
+    ValueError
+        If a radius or a drift is not positive and finite, or told twice.
+
     Examples
     --------
     >>> from concurrent.futures import ThreadPoolExecutor
@@ -181,6 +186,7 @@ def practice(
     >>> practice.times.shape
     (6, 2, 1)
     """
+    radii, drifts = _positive(radii, "radii"), _positive(drifts, "drifts")
     shape = (len(METHODS), len(radii), len(drifts))
     rates, times = np.zeros(shape), np.zeros(shape)
     with contextlib.ExitStack() as stack:
@@ -209,3 +215,15 @@ def practice(
                 times[m, i, j] = np.mean([entry.result.search_time for entry in entries])
             advance()
     return Practice(tuple(METHODS), np.array(radii), np.array(drifts), rates, times, runs)
+
+
+def _positive(values: Sequence[float], name: str) -> list[float]:
+    numbers = np.array(values, dtype=float)
+    good = (
+        numbers.ndim == 1
+        and len(numbers) > 0
+        and bool((np.isfinite(numbers) & (numbers > 0)).all())
+    )
+    if not good or len(set(numbers.tolist())) < len(numbers):
+        raise ValueError(f"{name}: got {values}, expected different positive numbers")
+    return list(numbers.tolist())
