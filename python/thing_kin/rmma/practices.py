@@ -59,7 +59,7 @@ class Practice:
     >>> from concurrent.futures import ThreadPoolExecutor
     >>> from thing_kin import rmma
     >>> with ThreadPoolExecutor() as pool:
-    ...     practice = rmma.practice(radii=(0.012,), drifts=(1.0,), runs=2, executor=pool)
+    ...     practice = rmma.practice((0.012,), (1.0,), runs=2, arrangements=(2,), executor=pool)
     >>> practice.rates.shape
     (6, 1, 1)
     """
@@ -88,7 +88,7 @@ class Practice:
         >>> from concurrent.futures import ThreadPoolExecutor
         >>> from thing_kin import rmma
         >>> with ThreadPoolExecutor() as pool:
-        ...     practice = rmma.practice(radii=(0.012,), drifts=(1.0,), runs=5, executor=pool)
+        ...     practice = rmma.practice((0.012,), (1.0,), runs=2, arrangements=(2,), executor=pool)
         >>> practice.methods[practice.choice(0, 0)[0]].startswith("covering")
         True
         """
@@ -104,7 +104,7 @@ class Practice:
         >>> from concurrent.futures import ThreadPoolExecutor
         >>> from thing_kin import rmma
         >>> with ThreadPoolExecutor() as pool:
-        ...     practice = rmma.practice(radii=(0.012,), drifts=(1.0,), runs=2, executor=pool)
+        ...     practice = rmma.practice((0.012,), (1.0,), runs=2, arrangements=(2,), executor=pool)
         >>> "12 mm" in practice.table()
         True
         """
@@ -128,7 +128,7 @@ class Practice:
         >>> from concurrent.futures import ThreadPoolExecutor
         >>> from thing_kin import rmma
         >>> with ThreadPoolExecutor() as pool, tempfile.TemporaryDirectory() as folder:
-        ...     practice = rmma.practice(radii=(0.012,), drifts=(1.0,), runs=2, executor=pool)
+        ...     practice = rmma.practice((0.012,), (1.0,), runs=2, arrangements=(2,), executor=pool)
         ...     len(practice.to_csv(folder + "/practice.csv").read_text().splitlines())
         7
         """
@@ -182,7 +182,7 @@ def practice(
     >>> from concurrent.futures import ThreadPoolExecutor
     >>> from thing_kin import rmma
     >>> with ThreadPoolExecutor() as pool:
-    ...     practice = rmma.practice(radii=(0.006, 0.012), drifts=(1.0,), runs=2, executor=pool)
+    ...     practice = rmma.practice((0.006, 0.012), (1.0,), runs=1, executor=pool)
     >>> practice.times.shape
     (6, 2, 1)
     """
