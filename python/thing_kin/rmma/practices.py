@@ -89,7 +89,8 @@ class Practice:
         >>> from thing_kin import rmma
         >>> with ThreadPoolExecutor() as pool:
         ...     practice = rmma.practice((0.012,), (1.0,), runs=2, arrangements=(2,), executor=pool)
-        >>> practice.methods[practice.choice(0, 0)[0]].startswith("covering")
+        >>> method, enough = practice.choice(0, 0)
+        >>> enough
         True
         """
         rates = self.rates[:, radius, drift]
