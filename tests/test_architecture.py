@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import thing_kin as tk
-from thing_kin import estimation, lie, odometry, robots
+from thing_kin import estimation, lie, odometry, rmma, robots, search
 
 ROOT = Path(__file__).parents[1]
 CPP = ROOT / "cpp"
@@ -25,6 +25,8 @@ LAYERS: dict[str, tuple[str, ...]] = {
     "planning": ("optimization",),
     "odometry": ("lie", "linalg"),
     "estimation": ("odometry", "kinematics"),
+    "search": ("linalg",),
+    "rmma": ("search", "estimation", "inverse"),
 }
 KDL_SOURCE = CPP / "src" / "model" / "kdl_chain.cpp"
 URDF_SOURCE = CPP / "src" / "model" / "urdf.cpp"
@@ -154,13 +156,16 @@ def test_bindings_mirror_the_core() -> None:
 def test_no_module_is_named_like_a_public_function() -> None:
     functions = {
         name
-        for module in (tk, lie, robots, estimation, odometry)
+        for module in (tk, lie, robots, estimation, odometry, search)
         for name in module.__all__
         if callable(getattr(module, name)) and not isinstance(getattr(module, name), type)
     }
     assert {"pinv", "transform", "so3_exp", "thing"} <= functions
     modules = {path.stem for path in PYTHON.rglob("*.py")}
     assert not modules & functions
+    # `rmma.trace` is a run in detail, `viz.trace` the figure of a solver's.
+    beside = {path.stem for package in ("rmma", "search") for path in (PYTHON / package).glob("*")}
+    assert not beside & set(rmma.__all__)
 
 
 @pytest.mark.parametrize("path", sorted(PYTHON.rglob("*.py")), ids=lambda p: p.name)
@@ -175,6 +180,8 @@ def test_python_reaches_the_core_through_few_modules(path: Path) -> None:
         assert "_estimation" not in text
     if path.parent.name != "odometry":
         assert "thing_kin._odometry" not in text
+    if path.parent.name not in ("search", "rmma"):
+        assert "_search" not in text.replace("_searched", "").replace("_searches", "")
     assert "_ceres" not in text
     assert "_urdf" not in text.replace("to_urdf", "").replace("from_urdf", "")
 

@@ -7,9 +7,21 @@ from collections.abc import Iterator
 import pytest
 
 import thing_kin as tk
-from thing_kin import estimation, interop, kdl, lie, odometry, rmma, robots, terms
+from thing_kin import estimation, interop, kdl, lie, odometry, rmma, robots, search, terms
 
-MODULES = (tk, lie, robots, terms, kdl, interop, estimation, estimation.models, odometry, rmma)
+MODULES = (
+    tk,
+    lie,
+    robots,
+    terms,
+    kdl,
+    interop,
+    estimation,
+    estimation.models,
+    odometry,
+    rmma,
+    search,
+)
 
 
 def public_things() -> Iterator[tuple[str, object]]:
@@ -35,7 +47,7 @@ THINGS = dict(public_things())
 PROPERTIES = {path for path, thing in THINGS.items() if isinstance(thing, property)}
 MODULES_ALONE = {
     module.__name__
-    for module in (lie, robots, terms, kdl, estimation, estimation.models, odometry, rmma)
+    for module in (lie, robots, terms, kdl, estimation, estimation.models, odometry, rmma, search)
 }
 WITH_EXAMPLES = sorted(set(THINGS) - PROPERTIES - MODULES_ALONE)
 

@@ -1,5 +1,6 @@
 """Drives followed by scans: drift, standstill, losses bridged, time that goes backwards."""
 
+import itertools
 import threading
 from dataclasses import replace
 
@@ -75,6 +76,94 @@ def test_nees_of_steps(family):
     nees = np.concatenate([follow(family, MIDDLE, (14, k), seconds=6.0).nees for k in range(3)])
     assert np.mean(nees < INSIDE) > 0.9
     assert 0.3 < np.median(nees) < 5.0  # of chi-square of 3: 2.37
+
+
+def differences(function, at, h=1e-6):
+    """Jacobian by central differences."""
+    columns = [(function(at + d) - function(at - d)) / (2 * h) for d in h * np.eye(3)]
+    return np.stack(columns, axis=1)
+
+
+@pytest.mark.parametrize("kind", ["covariance", "scan_covariance"])
+def test_a_motion_is_as_uncertain_as_both_its_poses(kind):
+    """An error in the heading before turns the whole motion: through the derivatives of between."""
+    lidar = odometry.LaserOdometry(scanner_of(MIDDLE))
+    run = record(FAMILIES["room"](RNG(17)), MIDDLE, RNG(17), 6.0, 3.0)  # steps of 0.2 to 0.3 m
+    steps = [lidar.add(scan, t=t) for t, scan in zip(run.times, run.scans, strict=True)]
+    ways = []
+    for before, now in itertools.pairwise(steps[1:]):
+        assert not before.degenerate
+        assert not now.degenerate
+        a, b = np.array(before.pose), np.array(now.pose)
+        by_a = differences(lambda p, b=b: between(p, b), a)
+        by_b = differences(lambda p, a=a: between(a, p), b)
+        P_a, P_b = getattr(before.match, kind), getattr(now.match, kind)
+        expected = by_a @ P_a @ by_a.T + by_b @ P_b @ by_b.T
+        # Differences of h = 1e-6 are good to about 1e-9.
+        np.testing.assert_allclose(getattr(now, kind), expected, atol=1e-6 * expected.max())
+        ways.append(np.hypot(*now.motion[:2]))
+    assert max(ways) > 0.15  # else the heading before would not matter
+
+
+def test_along_a_plain_corridor_the_scans_alone_say_nothing():
+    rng = RNG(18)
+    run = record(FAMILIES["corridor, plain"](rng), FINE, rng, 2.0, 10.0)
+    guesses, guessed = run.wheels(rng), np.diag([0.03, 0.02, 0.05]) ** 2
+    lidar = odometry.LaserOdometry(scanner_of(FINE))
+    for k, (t, ranges) in enumerate(zip(run.times, run.scans, strict=True)):
+        step = lidar.add(ranges, t=t, motion=guesses[k - 1] if k else None,
+                         motion_covariance=guessed if k else None)  # fmt: skip
+        if k < 2:
+            continue
+        heading = run.poses[k - 1, 2]  # of the robot before, in whose axes the motion is
+        along = np.array([np.cos(heading), -np.sin(heading), 0.0])
+        variance, direction = np.linalg.eigh(step.scan_covariance)
+        # What is told stays sharp though both scans' directions along the corridor differ a little.
+        assert np.sqrt(variance[:2]).max() < 0.003
+        assert variance[2] == pytest.approx(1e4, rel=0.01)
+        np.testing.assert_allclose(abs(direction[:, 2] @ along), 1.0, atol=1e-4)
+        # With the guess the motion is as uncertain as the guess of this one step, no less, no more.
+        both = np.asarray(step.covariance)
+        assert along @ both @ along == pytest.approx(along @ guessed @ along, rel=0.1)
+
+
+def test_after_a_corridor_the_scans_alone_tell_no_way_but_the_next():
+    """The pose is told again, the one before was not: a filter has no use for their motion yet."""
+    hall = World(np.array([[-90, -1, 4, -1], [-90, 1, 4, 1], [4, -1, 4, 1.0]]))
+    sensor = replace(MIDDLE, range_max=3.0)
+    lidar = odometry.LaserOdometry(scanner_of(sensor))
+    steps = []
+    for k in range(30):  # its end comes into sight, and is in the map a keyframe later
+        pose = (0.1 * k, 0.0, 0.0)
+        ranges = scan_at(pose, sensor, k, hall)
+        steps.append(lidar.add(ranges, t=0.1 * k, motion=(0.1, 0, 0) if k else None))
+    open_, told = (np.array([s.degenerate == d for s in steps[1:]]) for d in (True, False))
+    first = 1 + int(np.argmax(told))
+    assert 8 < first < 15
+    assert open_[: first - 1].all()
+    assert told[first + 2 :].all()
+    for k, step in enumerate(steps[1:], 1):
+        sd = np.sqrt(np.linalg.eigvalsh(step.scan_covariance))
+        assert sd[:2].max() < 0.02, k
+        assert (90 < sd[2] < 110) if k <= first else (sd[2] < 0.02), k
+
+
+def test_catching_up_is_no_velocity():
+    """Bridged with a velocity that was too low, then found: the jump is of all the time bridged."""
+    lidar = odometry.LaserOdometry(scanner_of(MIDDLE))
+    slow, fast, blind = 0.02, 0.1, np.full(361, np.inf)
+    for k in range(10):
+        lidar.add(scan_at((slow * k, 0, 0), MIDDLE, k), t=0.1 * k)
+    for k in range(10, 14):
+        assert lidar.add(blind, t=0.1 * k).status == "lost"
+    x = slow * 9 + fast * 5
+    found = lidar.add(scan_at((x, 0, 0), MIDDLE, 14), t=1.4)
+    assert found.status == "tracking"
+    np.testing.assert_allclose(found.pose, (x, 0, 0), atol=0.02)
+    assert found.motion[0] > 0.35
+    # Five guesses of equal worth share it; the velocity is of one.
+    bridged = lidar.add(blind, t=1.5).motion
+    np.testing.assert_allclose(bridged, (0.9 * fast, 0, 0), atol=0.02)
 
 
 # --- large turns --------------------------------------------------------------------------------

@@ -200,6 +200,21 @@ def test_a_corridor_says_along_which_direction_it_knows_nothing(sensor):
         assert abs(away[2]) < 0.02, k
 
 
+def test_what_is_untold_has_the_variance_of_the_guess_or_none_of_use():
+    """Two sides of a wall that no beam sees the ends of: along it the guess, or 100 m alone."""
+    wall = World(np.array([[2.0, -90, 2, 90]]))
+    sigma = np.array([0.3, 0.2, 0.1])
+    scans = [scan_of(wall, NARROW, p) for p in ((0, 0, 0), (0.1, 0.1, 0.05))]
+    match = odometry.match(scanner_of(NARROW), *scans, guess_covariance=np.diag(sigma**2))
+    np.testing.assert_allclose(np.abs(match.directions), [[0, 1, 0]], atol=0.01)
+    for covariance, along in ((match.covariance, sigma[1] ** 2), (match.scan_covariance, 1e4)):
+        variance, direction = np.linalg.eigh(covariance)
+        # A normal that is off by 0.01 takes 1e-4 of it and adds as much of the other's.
+        assert variance[2] == pytest.approx(along, rel=0.01)
+        np.testing.assert_allclose(np.abs(direction[:, 2]), [0, 1, 0], atol=0.01)
+        assert np.sqrt(variance[:2]).max() < 0.02
+
+
 def test_a_single_wall_is_degenerate_too():
     wall = World(np.array([[2.0, -90, 2, 90]]))
     scans = [scan_of(wall, NARROW, p) for p in ((0, 0, 0), (0.1, 0.1, 0.05))]

@@ -115,11 +115,12 @@ void bind_experiment(py::module_& m) {
       "run_experiment",
       [](const py::list& sides, const ArrayLike& velocities, std::size_t runs,
          const SearchOptions& options, std::uint64_t seed, const py::object& world,
-         const ArmPointer& arm, const ThreadCount& threads) {
+         const std::optional<ArmPointer>& arm, const ThreadCount& threads) {
         const std::vector<SearchPoints> read_in = read_sides(sides);
         const Batch speeds = read(velocities, "velocities", {});
         const std::span<const double> each(speeds.data, static_cast<std::size_t>(speeds.count));
-        const StartDrive start = start_drive(world, arm, seed, options.covering.reach);
+        const StartDrive start =
+            start_drive(world, arm.value_or(nullptr), seed, options.covering.reach);
         const bool own = py::isinstance<World>(world);
         std::vector<Attempt> attempts;
         if (own) {
@@ -132,12 +133,12 @@ void bind_experiment(py::module_& m) {
         return attempts_array(attempts, speeds.count, static_cast<py::ssize_t>(runs));
       },
       py::arg("sides"), py::arg("velocities"), py::arg("runs"), py::arg("options"), py::arg("seed"),
-      py::arg("world"), py::arg("arm").none(true), py::arg("threads"));
+      py::arg("world"), py::arg("arm"), py::arg("threads"));
 
   m.def(
       "trace_run",
       [](const py::list& sides, double velocity, const SearchOptions& options, std::uint64_t seed,
-         std::uint64_t run, const py::object& world, const ArmPointer& arm) {
+         std::uint64_t run, const py::object& world, const std::optional<ArmPointer>& arm) {
         const std::vector<SearchPoints> read_in = read_sides(sides);
         std::size_t fiducials = 0;
         for (const SearchPoints& side : read_in) {
@@ -146,7 +147,8 @@ void bind_experiment(py::module_& m) {
         std::vector<Attempt> attempts(fiducials);
         std::vector<std::vector<SearchTrace>> traces;
         run_once(read_in, velocity, options, seed, {.velocity = 0, .run = run, .side = 0},
-                 start_drive(world, arm, seed, options.covering.reach), attempts, &traces);
+                 start_drive(world, arm.value_or(nullptr), seed, options.covering.reach), attempts,
+                 &traces);
         py::list list;
         for (const std::vector<SearchTrace>& side : traces) {
           list.append(trace_list(side));
@@ -154,7 +156,7 @@ void bind_experiment(py::module_& m) {
         return py::make_tuple(attempts_array(attempts, 1, 1), list);
       },
       py::arg("sides"), py::arg("velocity"), py::arg("options"), py::arg("seed"), py::arg("run"),
-      py::arg("world"), py::arg("arm").none(true));
+      py::arg("world"), py::arg("arm"));
 
   m.def(
       "drive_key",

@@ -471,7 +471,7 @@ def next_fiducial(x: numpy.typing.ArrayLike, previous: typing.SupportsInt | typi
     ...
 def read_seed(rng: int | numpy.random.Generator | None) -> int:
     ...
-def run_experiment(sides: list, velocities: numpy.typing.ArrayLike, runs: typing.SupportsInt | typing.SupportsIndex, options: SearchOptions, seed: typing.SupportsInt | typing.SupportsIndex, world: typing.Any, arm: ManipulatorArm, threads: typing.SupportsIndex | None) -> numpy.typing.NDArray[numpy.float64]:
+def run_experiment(sides: list, velocities: numpy.typing.ArrayLike, runs: typing.SupportsInt | typing.SupportsIndex, options: SearchOptions, seed: typing.SupportsInt | typing.SupportsIndex, world: typing.Any, arm: ManipulatorArm | None, threads: typing.SupportsIndex | None) -> numpy.typing.NDArray[numpy.float64]:
     ...
 def spiral(center: numpy.typing.ArrayLike, gap: typing.SupportsFloat | typing.SupportsIndex, spacing: typing.SupportsFloat | typing.SupportsIndex | None = None, radius: typing.SupportsFloat | typing.SupportsIndex | None = None, count: typing.Any = None) -> numpy.typing.NDArray[numpy.float64]:
     """
@@ -548,5 +548,5 @@ def stochastic(center: numpy.typing.ArrayLike, covariance: numpy.typing.ArrayLik
     >>> points.shape, points[0]
     ((5, 2), array([1., 2.]))
     """
-def trace_run(sides: list, velocity: typing.SupportsFloat | typing.SupportsIndex, options: SearchOptions, seed: typing.SupportsInt | typing.SupportsIndex, run: typing.SupportsInt | typing.SupportsIndex, world: typing.Any, arm: ManipulatorArm) -> tuple[numpy.typing.NDArray[numpy.float64], list]:
+def trace_run(sides: list, velocity: typing.SupportsFloat | typing.SupportsIndex, options: SearchOptions, seed: typing.SupportsInt | typing.SupportsIndex, run: typing.SupportsInt | typing.SupportsIndex, world: typing.Any, arm: ManipulatorArm | None) -> tuple[numpy.typing.NDArray[numpy.float64], list]:
     ...

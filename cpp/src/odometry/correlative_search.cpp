@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <queue>
+#include <span>
 #include <tuple>
 
 #include <Eigen/Geometry>
@@ -43,24 +44,21 @@ class LikelihoodGrid {
     }
   }
 
-  Eigen::Vector2i cell(const Vector2d& p) const {
-    return ((p - origin_) / kResolution).array().floor().cast<int>();
+  // Of the cell in which p lies; p is inside.
+  std::int32_t cell(const Vector2d& p) const {
+    const Eigen::Vector2i at = ((p - origin_) * (1.0 / kResolution)).cast<int>();
+    return static_cast<std::int32_t>(index(at.x(), at.y()));
   }
 
-  // The mean over the points moved by (x, y) cells; at a coarse level a bound from above for all
-  // moves of the cell that begins there.
-  double score(const std::vector<Eigen::Vector2i>& points, int x, int y, int level) const {
-    const int reach = (1 << level) - 1;
-    const std::vector<std::uint8_t>& values = levels_[static_cast<std::size_t>(level)];
-    long sum = 0;
-    for (const Eigen::Vector2i& point : points) {
-      const int u = point.x() + x;
-      const int v = point.y() + y;
-      if (u >= -reach && v >= -reach && u < side_ && v < side_) {
-        sum += values[index(std::max(u, 0), std::max(v, 0))];
-      }
+  // The mean over the points (their cells) moved by (x, y) cells; at a coarse level a bound from
+  // above for all moves of the cell that begins there. No move leaves the grid.
+  double score(std::span<const std::int32_t> points, int x, int y, int level) const {
+    const std::uint8_t* values = levels_[static_cast<std::size_t>(level)].data() + y * side_ + x;
+    std::int32_t sum = 0;
+    for (const std::int32_t point : points) {
+      sum += values[point];
     }
-    return static_cast<double>(sum) / (255.0 * static_cast<double>(points.size()));
+    return sum / (255.0 * static_cast<double>(points.size()));
   }
 
  private:
@@ -166,22 +164,27 @@ std::vector<SearchCandidate> correlative_search(const LocalMap& map, const Plana
     farthest = std::max(farthest, p.norm());
   }
   const Pose2& center = window.center;
+  // The coarsest cells reach 0.75 m beyond a move.
   const LikelihoodGrid grid(map, center.head<2>(), farthest + window.translation + 1.0);
   const int turns = static_cast<int>(window.rotation / kTurn);
   const int reach = static_cast<int>(window.translation / kResolution);
-  std::vector<std::vector<Eigen::Vector2i>> turned(static_cast<std::size_t>(2 * turns + 1));
+  std::vector<std::int32_t> turned;
+  turned.reserve(static_cast<std::size_t>(2 * turns + 1) * points.size());
   std::priority_queue<Node> queue;
   const auto push = [&](int turn, int x, int y, int level) {
-    const double score = grid.score(turned[static_cast<std::size_t>(turn)], x, y, level);
+    const std::span<const std::int32_t> cells(
+        turned.data() + static_cast<std::size_t>(turn) * points.size(), points.size());
+    const double score = grid.score(cells, x, y, level);
     if (score > kLeastScore && (found.empty() || score > kLeastShareOfBest * found[0].score)) {
       queue.push({.score = score, .turn = turn, .x = x, .y = y, .level = level});
     }
   };
   constexpr int kCoarsest = 1 << (kLevels - 1);
   for (int turn = 0; turn <= 2 * turns; ++turn) {
-    const Eigen::Rotation2Dd R(center.z() + (turn - turns) * kTurn);
+    const Eigen::Matrix2d R =
+        Eigen::Rotation2Dd(center.z() + (turn - turns) * kTurn).toRotationMatrix();
     for (const Vector2d& p : points) {
-      turned[static_cast<std::size_t>(turn)].push_back(grid.cell(R * p + center.head<2>()));
+      turned.push_back(grid.cell(R * p + center.head<2>()));
     }
     for (int x = -reach; x <= reach; x += kCoarsest) {
       for (int y = -reach; y <= reach; y += kCoarsest) {

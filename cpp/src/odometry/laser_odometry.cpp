@@ -37,7 +37,9 @@ constexpr double kStillBound = 7.815;
 constexpr double kSameStart = 0.04;
 // Less of a scan's points on the map than this: it shows what the map doesn't know.
 constexpr double kWellKnown = 0.7;
-// Of a scan that moved, in s and in m or rad: once more if the guess of its own motion was worse.
+// Sine of the angle between two estimates of one direction that scans leave open, at most.
+constexpr double kSameDirection = 0.1;
+// Of a scan that moved, in m or rad: once more if the guess of its own motion was worse.
 constexpr double kSkew = 1e-3;
 
 void check_option(double value, const char* name, bool zero_allowed) {
@@ -57,6 +59,27 @@ Matrix3d motion_covariance(const Pose2& a, const Matrix3d& P_a, const Pose2& b,
   by_a(1, 2) = -motion.x();
   const Matrix3d sum = by_a * P_a * by_a.transpose() + to_a * P_b * to_a.transpose();
   return 0.5 * (sum + sum.transpose());
+}
+
+// Directions that a match leaves open, as columns (x, y, theta), world axes.
+Matrix3d untold_of(const ScanMatch& match) {
+  const Vector3d unit(1.0, 1.0, 1.0 / match.arm);
+  return unit.asDiagonal() * match.untold;
+}
+
+// Of directions that were open before those that are not still open now. Two estimates of one
+// corridor's direction differ by milliradians, of 100 m, which would blur what is told across it.
+// A heading that was open turns the motion, whatever is known now.
+Matrix3d no_longer_open(const Matrix3d& before, const ScanMatch& now) {
+  Matrix3d out = Matrix3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const Vector3d v = Vector3d(1.0, 1.0, now.arm).cwiseProduct(before.col(k)).normalized();
+    const Vector3d rest = v - now.untold * (now.untold.transpose() * v);
+    if (rest.norm() > kSameDirection || std::abs(v.z()) > kSameDirection) {
+      out.col(k) = before.col(k);
+    }
+  }
+  return out;
 }
 
 // A covariance in the axes of `from`, in world axes.
@@ -162,7 +185,25 @@ void LaserOdometry::begin(const PlanarEstimate& moved, LaserStep& step) {
   step.scan_covariance = Matrix3d::Identity() * kUntoldVariance;
   keyframe_ = pose_;
   noise_.setZero();
-  scan_noise_.setZero();
+  untold_.setZero();
+}
+
+// Along what no scan tells the motion is as uncertain as its guess, or of no use; the pose, in the
+// map, as all guesses since something told.
+void LaserOdometry::spread(const Pose2& before, const PlanarEstimate& moved, LaserStep& step) {
+  const ScanMatch& match = step.match;
+  const Matrix3d untold = Matrix3d::Identity() - match.told;
+  const Matrix3d guessed = untold * in_world(before, moved.covariance) * untold.transpose();
+  const Matrix3d P_before = match.told * noise_ * match.told.transpose();
+  const Matrix3d P_now = match.told * match.covariance * match.told.transpose();
+  step.covariance = motion_covariance(before, P_before, pose_, P_now + guessed);
+  const Matrix3d open_before = no_longer_open(untold_, match);
+  const Matrix3d open_now = untold_of(match);
+  step.scan_covariance =
+      motion_covariance(before, P_before + kUntoldVariance * open_before * open_before.transpose(),
+                        pose_, P_now + kUntoldVariance * open_now * open_now.transpose());
+  noise_ = match.covariance;
+  untold_ = open_now;
 }
 
 // Goes where the match says, or on with its guess.
@@ -176,17 +217,7 @@ void LaserOdometry::follow(const ScanMatch& match, const PlanarEstimate& moved, 
   const Pose2 before = pose_;
   pose_ = step.status == LaserStatus::kStill ? pose_ : match.pose;
   step.motion = between(before, pose_);
-  // Along what no scan tells the motion is as uncertain as its guess; the pose, in the map, as all
-  // guesses since something told.
-  const Matrix3d& told = match.told;
-  const Matrix3d untold = Matrix3d::Identity() - told;
-  const Matrix3d spread = in_world(before, moved.covariance);
-  step.covariance = motion_covariance(
-      before, told * noise_ * told.transpose(), pose_,
-      told * match.covariance * told.transpose() + untold * spread * untold.transpose());
-  step.scan_covariance = motion_covariance(before, scan_noise_, pose_, match.scan_covariance);
-  noise_ = match.covariance;
-  scan_noise_ = match.scan_covariance;
+  spread(before, moved, step);
   if (found) {
     // What the scans hardly tell must not become a velocity: weighed with the guess.
     const Pose2 off = pose_difference(step.motion, moved.pose);
@@ -206,7 +237,7 @@ void LaserOdometry::count_lost(LaserStep& step) {
   map_.insert(scan_, pose_, way_);
   keyframe_ = pose_;
   noise_.setZero();
-  scan_noise_.setZero();
+  untold_.setZero();
   step.keyframe = true;
 }
 

@@ -22,10 +22,26 @@ constexpr double kSameSide = 0.5;
 constexpr double kSameLine = 0.8;
 // A line is a mean over this radius, in m, where weights fall to zero.
 constexpr double kLineRadius = 0.25;
+// m; a pair is kept for so much at most, as looking further costs.
+constexpr double kMostSlack = 0.02;
 // In that mean one surfel counts as so many points at most.
 constexpr double kMostShare = 5.0;
 
-std::int32_t cell_of(double v) noexcept { return static_cast<std::int32_t>(std::floor(v / kCell)); }
+// The floor, without a call of the library's.
+std::int32_t cell_of(double v) noexcept {
+  const double cells = v * (1.0 / kCell);
+  const auto cell = static_cast<std::int32_t>(cells);
+  return cell - (cells < cell ? 1 : 0);
+}
+
+// From a place in a cell, seen from its lower end, to the cells so many further.
+double squared_gap(std::int32_t further, double inside) noexcept {
+  const double gap = further > 0 ? further * kCell - inside : inside - (further + 1) * kCell;
+  return further == 0 ? 0.0 : gap * gap;
+}
+
+// 0, -1, 1, -2, 2, ...: cells from the own one outwards.
+std::int32_t outwards(std::int32_t n) noexcept { return n % 2 == 0 ? n / 2 : -(n + 1) / 2; }
 
 }  // namespace
 
@@ -35,7 +51,7 @@ std::size_t LocalMap::entry_of(std::int32_t x, std::int32_t y) const noexcept {
   std::uint64_t hash = key * 0x9E3779B97F4A7C15ULL;
   hash ^= hash >> 32U;
   std::size_t entry = hash & (cells_.size() - 1);
-  while (cells_[entry].first >= 0 && (cells_[entry].x != x || cells_[entry].y != y)) {
+  while (cells_[entry].first != kNoCell && (cells_[entry].x != x || cells_[entry].y != y)) {
     entry = (entry + 1) & (cells_.size() - 1);
   }
   return entry;
@@ -54,9 +70,31 @@ void LocalMap::enlist(std::int32_t surfel) {
   const std::int32_t x = cell_of(p.x());
   const std::int32_t y = cell_of(p.y());
   Cell& cell = cells_[entry_of(x, y)];
-  used_ += cell.first < 0 ? 1 : 0;
+  used_ += cell.first == kNoCell ? 1 : 0;
   entries_[static_cast<std::size_t>(surfel)].next = cell.first;
   cell = {.x = x, .y = y, .first = surfel};
+}
+
+// A surfel's mean goes there, with it from one cell's list to another's.
+void LocalMap::move(std::int32_t surfel, const Vector2d& p) {
+  Entry& entry = entries_[static_cast<std::size_t>(surfel)];
+  const Vector2d before = entry.p;
+  surfels_[static_cast<std::size_t>(surfel)].p = p;
+  entry.p = p;
+  if (cell_of(before.x()) == cell_of(p.x()) && cell_of(before.y()) == cell_of(p.y())) {
+    return;
+  }
+  Cell& cell = cells_[entry_of(cell_of(before.x()), cell_of(before.y()))];
+  if (cell.first == surfel) {
+    cell.first = entry.next < 0 ? kNoSurfel : entry.next;
+  } else {
+    std::int32_t k = cell.first;
+    while (entries_[static_cast<std::size_t>(k)].next != surfel) {
+      k = entries_[static_cast<std::size_t>(k)].next;
+    }
+    entries_[static_cast<std::size_t>(k)].next = entry.next;
+  }
+  enlist(surfel);
 }
 
 // All surfels anew, in a table at most a quarter full.
@@ -65,7 +103,7 @@ void LocalMap::rehash() {
   while (size < 4 * (surfels_.size() + 1)) {
     size *= 2;
   }
-  cells_.assign(size, Cell{.x = 0, .y = 0, .first = -1});
+  cells_.assign(size, Cell{.x = 0, .y = 0, .first = kNoCell});
   used_ = 0;
   entries_.clear();
   for (const Surfel& surfel : surfels_) {
@@ -132,14 +170,12 @@ void LocalMap::insert(const PlanarScan& scan, const Pose2& pose, double clock) {
     }
     Surfel& surfel = surfels_[static_cast<std::size_t>(known)];
     const double weight = std::min(surfel.weight, kMostPoints);
-    // The surfel stays in its cell's list though its mean may leave the cell by some centimetres.
-    surfel.p = (surfel.p * weight + p) / (weight + 1.0);
+    move(known, (surfel.p * weight + p) / (weight + 1.0));
     if (surfel.is_surface()) {
       surfel.normal = (surfel.normal * weight + normal).normalized();
     }
     surfel.weight = weight + 1.0;
     surfel.seen = clock;
-    entries_[static_cast<std::size_t>(known)].p = surfel.p;
     entries_[static_cast<std::size_t>(known)].normal = surfel.normal;
     changed_.push_back(known);
   }
@@ -175,7 +211,7 @@ void LocalMap::forget(const Vector2d& center, double radius, double oldest) {
 void LocalMap::clear() noexcept {
   surfels_.clear();
   entries_.clear();
-  std::ranges::fill(cells_, Cell{.x = 0, .y = 0, .first = -1});
+  std::ranges::fill(cells_, Cell{.x = 0, .y = 0, .first = kNoCell});
   used_ = 0;
 }
 
@@ -211,19 +247,71 @@ void LocalMap::draw_line(Surfel& surfel) const noexcept {
   }
 }
 
+// Surfels that a point with this normal may lie on, of the own cell first, then outwards; the
+// visitor draws the bound in, and cells beyond are left out.
+template <typename Visit>
+void LocalMap::visit_facing(const Vector2d& p, const Vector2d& normal, const double& bound2,
+                            Visit&& visit) const noexcept {
+  if (surfels_.empty()) {
+    return;
+  }
+  const bool surface = !normal.isZero(0.0);
+  const std::int32_t x = cell_of(p.x());
+  const std::int32_t y = cell_of(p.y());
+  const Vector2d inside(p.x() - x * kCell, p.y() - y * kCell);
+  const std::int32_t cells = 2 * (cell_of(std::sqrt(bound2)) + 1) + 1;
+  for (std::int32_t i = 0; i < cells; ++i) {
+    const std::int32_t column = outwards(i);
+    const double gap_x2 = squared_gap(column, inside.x());
+    for (std::int32_t j = 0; j < cells && gap_x2 < bound2; ++j) {
+      const std::int32_t row = outwards(j);
+      if (gap_x2 + squared_gap(row, inside.y()) >= bound2) {
+        continue;
+      }
+      for (std::int32_t k = first_of(x + column, y + row); k >= 0;) {
+        const Entry& entry = entries_[static_cast<std::size_t>(k)];
+        const double distance2 = (entry.p - p).squaredNorm();
+        if (distance2 < bound2 &&
+            (!surface || (entry.is_surface() && entry.normal.dot(normal) >= kSameSide))) {
+          visit(k, distance2);
+        }
+        k = entry.next;
+      }
+    }
+  }
+}
+
 const Surfel* LocalMap::nearest(const Vector2d& p, const Vector2d& normal,
                                 double distance) const noexcept {
-  const bool surface = !normal.isZero(0.0);
   std::int32_t found = -1;
   double least = distance * distance;
-  visit_near(p, distance, [&](std::int32_t k, const Entry& entry, double distance2) {
-    if (distance2 < least &&
-        (!surface || (entry.is_surface() && entry.normal.dot(normal) >= kSameSide))) {
-      least = distance2;
-      found = k;
-    }
+  visit_facing(p, normal, least, [&](std::int32_t k, double distance2) {
+    least = distance2;
+    found = k;
   });
   return found < 0 ? nullptr : &surfels_[static_cast<std::size_t>(found)];
+}
+
+LocalMap::Nearest LocalMap::nearest_of_two(const Vector2d& p, const Vector2d& normal,
+                                           double distance) const noexcept {
+  std::int32_t found = -1;
+  double least = distance * distance;
+  double bound = least;  // of the second, which is not asked for beyond a slack of kMostSlack
+  visit_facing(p, normal, bound, [&](std::int32_t k, double distance2) {
+    if (distance2 >= least) {
+      bound = distance2;
+      return;
+    }
+    const double reach = std::sqrt(distance2) + 2.0 * kMostSlack;
+    bound = std::min(found < 0 ? bound : least, reach * reach);
+    least = distance2;
+    found = k;
+  });
+  if (found < 0) {
+    return {.surfel = nullptr, .slack = 0.0};
+  }
+  return {.surfel = &surfels_[static_cast<std::size_t>(found)],
+          .slack = 0.5 * (std::sqrt(bound) - std::sqrt(least))};
 }
 
 }  // namespace thing_kin

@@ -25,6 +25,8 @@ using Eigen::Vector3d;
 constexpr double kFirstDistance = 0.4;
 constexpr double kLastDistance = 0.15;
 constexpr double kShrink = 0.85;
+// A step below this (m, rad) comes from what is near already: what is far is left at once.
+constexpr double kSettled = 0.02;
 // Of the robust loss, m: a point so far off counts a quarter.
 constexpr double kScale = 0.1;
 // A place pulls along both axes, less than a line across its own, and from twice as far.
@@ -32,6 +34,8 @@ constexpr double kPlaceWeight = 0.5;
 constexpr double kPlaceScale = 2.0 * kScale;
 // The guess counts as so much of a point: it decides only what hardly anything else does.
 constexpr double kPull = 0.25;
+// A point that has turned by more, in rad, may face another surface.
+constexpr double kKeptTurn = 0.01;
 // A step below this (m, rad) ends the iteration.
 constexpr double kMatchStep = 1e-5;
 // Fitness that a start loses for each squared deviation from the guess; deviations have a floor, m
@@ -61,14 +65,40 @@ struct Pairing {
   Vector2d error;  // from the map to the point
 };
 
+// What a point was paired with, and where: kept while it can't be paired otherwise.
+struct Kept {
+  const Surfel* surfel = nullptr;
+  double slack = -1.0;  // m; negative: to be searched
+  Vector2d p = Vector2d::Zero();
+  double theta = 0.0;
+  double distance = 0.0;
+};
+
+// Its surfel within `distance`.
+const Surfel* paired(const LocalMap& map, const Vector2d& p, const Vector2d& normal, double theta,
+                     double distance, Kept& kept) {
+  const double room = kept.surfel != nullptr ? kept.slack : kept.distance - distance;
+  if (kept.slack < 0.0 || std::abs(theta - kept.theta) > kKeptTurn || room < 0.0 ||
+      (p - kept.p).squaredNorm() > room * room) {
+    const LocalMap::Nearest found = map.nearest_of_two(p, normal, distance);
+    kept = {
+        .surfel = found.surfel, .slack = found.slack, .p = p, .theta = theta, .distance = distance};
+    return kept.surfel;
+  }
+  const bool near =
+      kept.surfel != nullptr && (p - kept.surfel->p).squaredNorm() < distance * distance;
+  return near ? kept.surfel : nullptr;
+}
+
 template <typename Visit>
 void visit_pairs(const LocalMap& map, const PlanarScan& scan, const Pose2& pose, double distance,
-                 Visit&& visit) {
+                 std::vector<Kept>& kept, Visit&& visit) {
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(pose.z()).toRotationMatrix();
-  for (const ScanPoint& point : scan) {
+  for (std::size_t k = 0; k < scan.size(); ++k) {
+    const ScanPoint& point = scan[k];
     const Vector2d arm = R * point.p;
     const Vector2d p = arm + pose.head<2>();
-    const Surfel* surfel = map.nearest(p, R * point.normal, distance);
+    const Surfel* surfel = paired(map, p, R * point.normal, pose.z(), distance, kept[k]);
     if (surfel != nullptr &&
         (surfel->is_surface() || point.surroundings != Surroundings::kSparse)) {
       visit(Pairing{.surfel = surfel, .arm = arm, .error = p - surfel->line_p});
@@ -94,9 +124,10 @@ double equations(const Pairing& pair, Row&& row) {
   return share;
 }
 
-Normal normal_at(const LocalMap& map, const PlanarScan& scan, const Pose2& pose, double distance) {
+Normal normal_at(const LocalMap& map, const PlanarScan& scan, const Pose2& pose, double distance,
+                 std::vector<Kept>& kept) {
   Normal sum;
-  visit_pairs(map, scan, pose, distance, [&](const Pairing& pair) {
+  visit_pairs(map, scan, pose, distance, kept, [&](const Pairing& pair) {
     double worst = 0.0;
     const double agreement = equations(pair, [&](const Vector3d& J, double e, double w) {
       sum.A.noalias() += (w * J) * J.transpose();
@@ -155,7 +186,7 @@ class Matcher {
  public:
   Matcher(const LocalMap& map, const PlanarScan& scan, const MatchGuess& guess,
           const MatchOptions& options)
-      : map_(map), scan_(scan), guess_(guess), options_(options) {
+      : map_(map), scan_(scan), guess_(guess), options_(options), kept_(scan.size()) {
     Matrix3d P = guess.covariance;
     P.diagonal() += Vector3d(kFloor * kFloor, kFloor * kFloor, kFloorTurn * kFloorTurn);
     distrust_ = P.inverse();
@@ -167,18 +198,20 @@ class Matcher {
     return normal.agreement / static_cast<double>(scan_.size());
   }
 
-  Fit fit(const Pose2& start) const { return descend(start, first_distance_, nullptr); }
+  Fit fit(const Pose2& start) { return descend(start, first_distance_, nullptr); }
+
+  std::vector<Kept>& kept() { return kept_; }
 
   // On from a fit, along directions that are told.
-  Fit polish(const Pose2& start, const Directions& frozen) const {
+  Fit polish(const Pose2& start, const Directions& frozen) {
     return descend(start, kLastDistance, &frozen);
   }
 
  private:
-  Fit descend(const Pose2& start, double distance, const Directions* frozen) const {
+  Fit descend(const Pose2& start, double distance, const Directions* frozen) {
     Fit fit{.pose = start, .normal = {}};
-    for (;; distance = std::max(kShrink * distance, kLastDistance)) {
-      fit.normal = normal_at(map_, scan_, fit.pose, distance);
+    for (;;) {
+      fit.normal = normal_at(map_, scan_, fit.pose, distance, kept_);
       const bool last = distance <= kLastDistance;
       if (fit.converged || fit.iterations == options_.max_iterations) {
         break;
@@ -196,6 +229,8 @@ class Matcher {
       fit.pose.z() = wrap_angle(fit.pose.z());
       ++fit.iterations;
       fit.converged = last && step.norm() < kMatchStep;
+      distance =
+          step.norm() < kSettled ? kLastDistance : std::max(kShrink * distance, kLastDistance);
     }
     const Pose2 off = pose_difference(fit.pose, guess_.pose);
     const double asked = kPenalty * off.dot(distrust_ * off);
@@ -219,19 +254,21 @@ class Matcher {
   const MatchOptions& options_;
   Matrix3d distrust_;
   double first_distance_ = kFirstDistance;
+  std::vector<Kept> kept_;
 };
 
 // The scan's noise and, through the surfels, the map's, carried to the pose; where residuals are
 // larger than noise explains, both grow with them.
-Matrix3d spread_of(const LocalMap& map, const PlanarScan& scan, const Fit& fit, double noise) {
+Matrix3d spread_of(const LocalMap& map, const PlanarScan& scan, const Fit& fit, double noise,
+                   std::vector<Kept>& kept) {
   std::vector<int> hits(map.surfels().size(), 0);
   const auto index = [&](const Surfel* surfel) {
     return static_cast<std::size_t>(surfel - map.surfels().data());
   };
-  visit_pairs(map, scan, fit.pose, kLastDistance,
+  visit_pairs(map, scan, fit.pose, kLastDistance, kept,
               [&](const Pairing& pair) { ++hits[index(pair.surfel)]; });
   Matrix3d B = Matrix3d::Zero();
-  visit_pairs(map, scan, fit.pose, kLastDistance, [&](const Pairing& pair) {
+  visit_pairs(map, scan, fit.pose, kLastDistance, kept, [&](const Pairing& pair) {
     // Points that share a surfel share its error: its noise, and what its surface is off a line.
     const int points = hits[index(pair.surfel)];
     const double curved = std::max(pair.surfel->roughness / (noise * noise) - 1.0, 0.0);
@@ -262,6 +299,7 @@ void write_covariance(const Matrix3d& B, const Directions& told, const Matrix3d&
     match.untold.col(k) = v;
   }
   match.degenerate = told.untold;
+  match.arm = unit.z();
   for (int i = 0; i < 3; ++i) {
     match.told.col(i) = Matcher::along_told(told, Vector3d::Unit(i));
   }
@@ -325,7 +363,7 @@ ScanMatch match_scan(const LocalMap& map, const PlanarScan& scan, const MatchGue
   if (thinned.size() < 3 || map.surfels().empty()) {
     return without_match(guess, MatchStatus::kTooFewPoints);
   }
-  const Matcher matcher(map, thinned, guess, options);
+  Matcher matcher(map, thinned, guess, options);
   Fit best = matcher.fit(guess.pose);
   int iterations = best.iterations;
   const auto consider = [&](const Pose2& start, double factor) {
@@ -364,7 +402,8 @@ ScanMatch match_scan(const LocalMap& map, const PlanarScan& scan, const MatchGue
     match.pose = best.pose;
     match.pose.z() = wrap_angle(match.pose.z());
     match.status = best.converged ? MatchStatus::kConverged : MatchStatus::kIterationLimit;
-    write_covariance(spread_of(map, thinned, best, noise), told, guess.covariance, match);
+    write_covariance(spread_of(map, thinned, best, noise, matcher.kept()), told, guess.covariance,
+                     match);
   }
   match.fitness = fitness;
   match.inliers = static_cast<double>(best.normal.inliers) / static_cast<double>(thinned.size());

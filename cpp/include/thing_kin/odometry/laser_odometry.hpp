@@ -67,6 +67,7 @@ class LaserOdometry {
                  double dt);
   void begin(const PlanarEstimate& moved, LaserStep& step);
   void follow(const ScanMatch& match, const PlanarEstimate& moved, LaserStep& step);
+  void spread(const Pose2& before, const PlanarEstimate& moved, LaserStep& step);
   void count_lost(LaserStep& step);
   bool seems_still(const ScanMatch& match) const;
   void keep(LaserStep& step);
@@ -76,8 +77,8 @@ class LaserOdometry {
   LocalMap map_;
   PlanarScan scan_;
   Pose2 pose_ = Pose2::Zero();
-  Eigen::Matrix3d noise_ = Eigen::Matrix3d::Zero();  ///< of pose_ in the map
-  Eigen::Matrix3d scan_noise_ = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d noise_ = Eigen::Matrix3d::Zero();   ///< of pose_ in the map
+  Eigen::Matrix3d untold_ = Eigen::Matrix3d::Zero();  ///< columns: what the scan at pose_ left open
   Twist2 twist_ = Twist2::Zero();
   Pose2 keyframe_ = Pose2::Zero();
   std::optional<double> t_;

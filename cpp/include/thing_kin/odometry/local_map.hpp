@@ -44,25 +44,39 @@ class LocalMap {
   const Surfel* nearest(const Eigen::Vector2d& p, const Eigen::Vector2d& normal,
                         double distance) const noexcept;
 
+  /// The same; and how far p may move so that it stays the nearest, whatever `distance` is then.
+  struct Nearest {
+    const Surfel* surfel;
+    double slack;  ///< m; of none 0
+  };
+  Nearest nearest_of_two(const Eigen::Vector2d& p, const Eigen::Vector2d& normal,
+                         double distance) const noexcept;
+
   const std::vector<Surfel>& surfels() const noexcept { return surfels_; }
 
  private:
   struct Cell {
     std::int32_t x;
     std::int32_t y;
-    std::int32_t first;  ///< of the cell's surfels; -1: an empty entry
+    std::int32_t first;  ///< of the cell's surfels; or one of those below
   };
+  static constexpr std::int32_t kNoCell = -1;    ///< an entry of the table that no cell has
+  static constexpr std::int32_t kNoSurfel = -2;  ///< a cell that all surfels have left
   std::size_t entry_of(std::int32_t x, std::int32_t y) const noexcept;
   std::int32_t first_of(std::int32_t x, std::int32_t y) const noexcept;
   void enlist(std::int32_t surfel);
+  void move(std::int32_t surfel, const Eigen::Vector2d& p);
   void rehash();
+  template <typename Visit>
+  void visit_facing(const Eigen::Vector2d& p, const Eigen::Vector2d& normal, const double& bound2,
+                    Visit&& visit) const noexcept;
   template <typename Visit>
   void visit_near(const Eigen::Vector2d& p, double distance, Visit&& visit) const noexcept;
   std::int32_t mergeable(const Eigen::Vector2d& p, const Eigen::Vector2d& normal) const noexcept;
   void draw_lines();
   void draw_line(Surfel& surfel) const noexcept;
 
-  // What a search reads of a surfel, and the next of the same cell; -1: none.
+  // What a search reads of a surfel, and the next of the same cell; < 0: none.
   struct Entry {
     Eigen::Vector2d p;
     Eigen::Vector2d normal;

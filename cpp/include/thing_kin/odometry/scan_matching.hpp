@@ -45,9 +45,10 @@ struct ScanMatch {
   /// the guess came from.
   Eigen::Matrix3d scan_covariance = Eigen::Matrix3d::Zero();
   MatchStatus status = MatchStatus::kTooFewPoints;
-  /// Directions that the scans don't tell, (x, y, theta) in the map's axes, orthonormal columns
-  /// when theta is measured by the points' mean distance.
+  /// Directions that the scans don't tell, (x, y, arm theta) in the map's axes: orthonormal
+  /// columns.
   Eigen::Matrix3d untold = Eigen::Matrix3d::Zero();
+  double arm = 1.0;    ///< m: the points' mean distance
   int degenerate = 0;  ///< how many they are
   /// Takes the untold directions away from a small motion.
   Eigen::Matrix3d told = Eigen::Matrix3d::Zero();
