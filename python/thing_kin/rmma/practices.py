@@ -59,7 +59,7 @@ class Practice:
     >>> from concurrent.futures import ThreadPoolExecutor
     >>> from thing_kin import rmma
     >>> with ThreadPoolExecutor() as pool:
-    ...     practice = rmma.practice(radii=(0.012,), drifts=(1.0,), runs=2, executor=pool)
+    ...     practice = rmma.practice((0.012,), (1.0,), runs=2, arrangements=(2,), executor=pool)
     >>> practice.rates.shape
     (6, 1, 1)
     """
@@ -88,8 +88,9 @@ class Practice:
         >>> from concurrent.futures import ThreadPoolExecutor
         >>> from thing_kin import rmma
         >>> with ThreadPoolExecutor() as pool:
-        ...     practice = rmma.practice(radii=(0.012,), drifts=(1.0,), runs=5, executor=pool)
-        >>> practice.methods[practice.choice(0, 0)[0]].startswith("covering")
+        ...     practice = rmma.practice((0.012,), (1.0,), runs=2, arrangements=(2,), executor=pool)
+        >>> method, enough = practice.choice(0, 0)
+        >>> enough
         True
         """
         rates = self.rates[:, radius, drift]
@@ -104,7 +105,7 @@ class Practice:
         >>> from concurrent.futures import ThreadPoolExecutor
         >>> from thing_kin import rmma
         >>> with ThreadPoolExecutor() as pool:
-        ...     practice = rmma.practice(radii=(0.012,), drifts=(1.0,), runs=2, executor=pool)
+        ...     practice = rmma.practice((0.012,), (1.0,), runs=2, arrangements=(2,), executor=pool)
         >>> "12 mm" in practice.table()
         True
         """
@@ -128,7 +129,7 @@ class Practice:
         >>> from concurrent.futures import ThreadPoolExecutor
         >>> from thing_kin import rmma
         >>> with ThreadPoolExecutor() as pool, tempfile.TemporaryDirectory() as folder:
-        ...     practice = rmma.practice(radii=(0.012,), drifts=(1.0,), runs=2, executor=pool)
+        ...     practice = rmma.practice((0.012,), (1.0,), runs=2, arrangements=(2,), executor=pool)
         ...     len(practice.to_csv(folder + "/practice.csv").read_text().splitlines())
         7
         """
@@ -172,15 +173,21 @@ def practice(
     -------
     Practice
 
+    Raises
+    ------
+    ValueError
+        If a radius or a drift is not positive and finite, or told twice.
+
     Examples
     --------
     >>> from concurrent.futures import ThreadPoolExecutor
     >>> from thing_kin import rmma
     >>> with ThreadPoolExecutor() as pool:
-    ...     practice = rmma.practice(radii=(0.006, 0.012), drifts=(1.0,), runs=2, executor=pool)
+    ...     practice = rmma.practice((0.006, 0.012), (1.0,), runs=1, executor=pool)
     >>> practice.times.shape
     (6, 2, 1)
     """
+    radii, drifts = _positive(radii, "radii"), _positive(drifts, "drifts")
     shape = (len(METHODS), len(radii), len(drifts))
     rates, times = np.zeros(shape), np.zeros(shape)
     with contextlib.ExitStack() as stack:
@@ -209,3 +216,15 @@ def practice(
                 times[m, i, j] = np.mean([entry.result.search_time for entry in entries])
             advance()
     return Practice(tuple(METHODS), np.array(radii), np.array(drifts), rates, times, runs)
+
+
+def _positive(values: Sequence[float], name: str) -> list[float]:
+    numbers = np.array(values, dtype=float)
+    good = (
+        numbers.ndim == 1
+        and len(numbers) > 0
+        and bool((np.isfinite(numbers) & (numbers > 0)).all())
+    )
+    if not good or len(set(numbers.tolist())) < len(numbers):
+        raise ValueError(f"{name}: got {values}, expected different positive numbers")
+    return list(numbers.tolist())

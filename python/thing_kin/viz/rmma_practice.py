@@ -34,7 +34,7 @@ def plot_rmma_practice(practice: Practice) -> Figure:
     >>> from concurrent.futures import ThreadPoolExecutor
     >>> from thing_kin import rmma, viz
     >>> with ThreadPoolExecutor() as pool:
-    ...     practice = rmma.practice(radii=(0.006, 0.012), drifts=(1.0, 2.0), runs=2, executor=pool)
+    ...     practice = rmma.practice((0.006, 0.012), (1.0, 2.0), runs=1, executor=pool)
     >>> len(viz.plot_rmma_practice(practice).axes)
     5
     """
