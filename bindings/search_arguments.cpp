@@ -15,8 +15,7 @@ std::uint64_t read_seed(const Randomness& rng) {
     return entropy.cast<std::uint64_t>();
   }
   if (py::hasattr(rng, "integers")) {
-    const py::object drawn = rng.attr("integers")(std::int64_t{0}, INT64_MAX);
-    return drawn.cast<std::uint64_t>();
+    return rng.attr("integers")(std::int64_t{0}, INT64_MAX).cast<std::uint64_t>();
   }
   const py::object index = py::reinterpret_steal<py::object>(PyNumber_Index(rng.ptr()));
   if (!index) {

@@ -31,14 +31,15 @@ def public_things() -> Iterator[tuple[str, object]]:
             thing = getattr(module, name)
             if inspect.isclass(thing):
                 yield from class_and_members(f"{module.__name__}.{name}", thing)
-            elif callable(thing):
+            elif inspect.isroutine(thing):
                 yield f"{module.__name__}.{name}", thing
 
 
 def class_and_members(path: str, thing: type) -> Iterator[tuple[str, object]]:
     yield path, thing
     for name in vars(thing):
-        if not name.startswith("_"):
+        # A field of a dataclass says what it is where it stands; its default here does not.
+        if not name.startswith("_") and name not in getattr(thing, "__dataclass_fields__", {}):
             member = inspect.getattr_static(thing, name)
             yield f"{path}.{name}", getattr(thing, name) if callable(member) else member
 

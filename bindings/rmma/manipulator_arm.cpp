@@ -48,7 +48,17 @@ Examples
             JointVector q = JointVector::Zero(arm.chain().dof());
             return arm.solve(read_point(displacement, "displacement"), q);
           },
-          py::arg("displacement"), "Whether the tool can be at (2,), m from the base.")
+          py::arg("displacement"),
+          R"(Whether the tool can be at `displacement`, (2,) m from the base.
+
+Examples
+--------
+>>> import thing_kin as tk
+>>> from thing_kin import rmma
+>>> arm = rmma.ManipulatorArm(tk.robots.pioneer_lx_ur5())
+>>> arm.reaches((0.2, 0.6))
+True
+)")
       .def(
           "motion_time",
           [](const ManipulatorArm& arm, const ArrayLike& from, const ArrayLike& to) {
@@ -63,9 +73,32 @@ Examples
             return arm.motion_time(q, end);
           },
           py::arg("a"), py::arg("b"),
-          "s from displacement `a`, (2,) m, to `b`, from rest to rest, without overhead.")
+          R"(s from displacement `a`, (2,) m, to `b`, from rest to rest, without overhead.
+
+Raises
+------
+ValueError
+    If one of them is out of reach.
+
+Examples
+--------
+>>> import thing_kin as tk
+>>> from thing_kin import rmma
+>>> arm = rmma.ManipulatorArm(tk.robots.pioneer_lx_ur5())
+>>> 0.0 < arm.motion_time((0.2, 0.6), (0.2, 0.605)) < arm.motion_time((0.2, 0.6), (-0.2, 0.6)) < 1.0
+True
+)")
       .def_property_readonly("chain", &ManipulatorArm::chain,
-                             py::return_value_policy::reference_internal);
+                             py::return_value_policy::reference_internal, "The arm's chain.")
+      .def(py::pickle(
+          [](const ManipulatorArm& arm) {
+            return py::make_tuple(arm.chain(), arm.height(), arm.turn());
+          },
+          [](const py::tuple& state) {
+            return std::make_shared<ManipulatorArm>(
+                std::make_shared<const Chain>(state[0].cast<const Chain&>()),
+                state[1].cast<double>(), state[2].cast<double>());
+          }));
 }
 
 }  // namespace thing_kin::python

@@ -81,7 +81,7 @@ std::unique_ptr<WorldRun> python_run(const py::object& run, double reach) {
 
 void check_start(WorldRun& run, const SearchPoints& side) {
   constexpr double kNear = 0.1;
-  const Eigen::Vector2d expected = side.front() - kFirstDisplacement;
+  const Eigen::Vector2d expected = side.front() - first_displacement();
   const Eigen::Vector2d at = run.pose(0.0).head<2>();
   if (!((at - expected).norm() <= kNear)) {
     throw InvalidArgument("world: pose(0)", "(" + text(at.x()) + ", " + text(at.y()) + ", ...)",
@@ -146,10 +146,28 @@ Examples
 )")
       .def(
           "pose", [](WorldRun& run, double t) { return pose_tuple(run.pose(t)); }, py::arg("t"),
-          "(x, y, theta) of the base, m and rad, at time t.")
+          R"((x, y, theta) of the base, m and rad, at time t.
+
+Examples
+--------
+>>> import numpy as np
+>>> from thing_kin import rmma
+>>> run = rmma.World().start(0.02, [[0.0, 0.6], [0.2, 0.6]], np.random.default_rng(0))
+>>> run.pose(0.0)[:2]
+(-0.2, 0.0)
+)")
       .def(
           "odometry", [](WorldRun& run, double t) { return pose_tuple(run.odometry(t)); },
-          py::arg("t"), "(x, y, theta) as the base's localization has it at time t.")
+          py::arg("t"), R"((x, y, theta) as the base's localization has it at time t.
+
+Examples
+--------
+>>> import numpy as np
+>>> from thing_kin import rmma
+>>> run = rmma.World().start(0.02, [[0.0, 0.6], [0.2, 0.6]], np.random.default_rng(0))
+>>> bool(np.allclose(run.odometry(0.0), run.pose(0.0), atol=0.05))
+True
+)")
       .def(
           "place",
           [](WorldRun& run, const ArrayLike& command) {
@@ -157,28 +175,65 @@ Examples
             return py::make_tuple(to_array(placement.actual), to_array(placement.seen));
           },
           py::arg("u_command"),
-          "Stop the arm: where the tool is from the base, (2,) m, and where forward kinematics "
-          "has it, (2,). After move_time() it has moved to another place of work.")
+          R"(Stop the arm: where the tool is from the base, (2,) m, and where forward kinematics has it, (2,).
+
+After move_time() it has moved to another place of work.
+
+Examples
+--------
+>>> import numpy as np
+>>> from thing_kin import rmma
+>>> run = rmma.World().start(0.02, [[0.0, 0.6], [0.2, 0.6]], np.random.default_rng(0))
+>>> true, seen = run.place((0.2, 0.6))
+>>> bool(np.linalg.norm(true - seen) < 0.005)
+True
+)")
       .def(
           "detects",
           [](WorldRun& run, const ArrayLike& tool, const ArrayLike& fiducial) {
             return run.detects(read_point(tool, "tool_xy"), read_point(fiducial, "fiducial"));
           },
           py::arg("tool_xy"), py::arg("fiducial"),
-          "Whether the laser, read with the tool at `tool_xy`, sees the fiducial listed at "
-          "`fiducial`.")
+          R"(Whether the laser, read with the tool at `tool_xy`, sees the fiducial listed at `fiducial`.
+
+Examples
+--------
+>>> import numpy as np
+>>> from thing_kin import rmma
+>>> run = rmma.World().start(0.02, [[0.0, 0.6], [0.2, 0.6]], np.random.default_rng(0))
+>>> run.detects((0.0, 0.605), (0.0, 0.6)), run.detects((0.0, 0.65), (0.0, 0.6))
+(True, False)
+)")
       .def(
           "move_time",
           [](WorldRun& run, const ArrayLike& from, const ArrayLike& to) {
             return run.move_time(read_point(from, "a"), read_point(to, "b"));
           },
-          py::arg("a"), py::arg("b"), "s of a move of the arm to another place of work.")
+          py::arg("a"), py::arg("b"), R"(s of a move of the arm to another place of work.
+
+Examples
+--------
+>>> import numpy as np
+>>> from thing_kin import rmma
+>>> run = rmma.World().start(0.02, [[0.0, 0.6], [0.2, 0.6]], np.random.default_rng(0))
+>>> round(run.move_time((0.2, 0.6), (0.2, 0.45)), 9)
+1.5
+)")
       .def(
           "sample_time",
           [](WorldRun& run, const ArrayLike& from, const ArrayLike& to) {
             return run.sample_time(read_point(from, "a"), read_point(to, "b"));
           },
-          py::arg("a"), py::arg("b"), "s from one reading of the laser to the next.");
+          py::arg("a"), py::arg("b"), R"(s from one reading of the laser to the next.
+
+Examples
+--------
+>>> import numpy as np
+>>> from thing_kin import rmma
+>>> run = rmma.World().start(0.02, [[0.0, 0.6], [0.2, 0.6]], np.random.default_rng(0))
+>>> round(run.sample_time((0.2, 0.6), (0.2, 0.618)), 9)
+0.26
+)");
 
   m.def(
       "start_run",

@@ -220,26 +220,77 @@ class WorldRun:
     def detects(self, tool_xy: numpy.typing.ArrayLike, fiducial: numpy.typing.ArrayLike) -> bool:
         """
         Whether the laser, read with the tool at `tool_xy`, sees the fiducial listed at `fiducial`.
+        
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from thing_kin import rmma
+        >>> run = rmma.World().start(0.02, [[0.0, 0.6], [0.2, 0.6]], np.random.default_rng(0))
+        >>> run.detects((0.0, 0.605), (0.0, 0.6)), run.detects((0.0, 0.65), (0.0, 0.6))
+        (True, False)
         """
     def move_time(self, a: numpy.typing.ArrayLike, b: numpy.typing.ArrayLike) -> float:
         """
         s of a move of the arm to another place of work.
+        
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from thing_kin import rmma
+        >>> run = rmma.World().start(0.02, [[0.0, 0.6], [0.2, 0.6]], np.random.default_rng(0))
+        >>> round(run.move_time((0.2, 0.6), (0.2, 0.45)), 9)
+        1.5
         """
     def odometry(self, t: typing.SupportsFloat | typing.SupportsIndex) -> tuple:
         """
         (x, y, theta) as the base's localization has it at time t.
+        
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from thing_kin import rmma
+        >>> run = rmma.World().start(0.02, [[0.0, 0.6], [0.2, 0.6]], np.random.default_rng(0))
+        >>> bool(np.allclose(run.odometry(0.0), run.pose(0.0), atol=0.05))
+        True
         """
     def place(self, u_command: numpy.typing.ArrayLike) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
         """
-        Stop the arm: where the tool is from the base, (2,) m, and where forward kinematics has it, (2,). After move_time() it has moved to another place of work.
+        Stop the arm: where the tool is from the base, (2,) m, and where forward kinematics has it, (2,).
+        
+        After move_time() it has moved to another place of work.
+        
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from thing_kin import rmma
+        >>> run = rmma.World().start(0.02, [[0.0, 0.6], [0.2, 0.6]], np.random.default_rng(0))
+        >>> true, seen = run.place((0.2, 0.6))
+        >>> bool(np.linalg.norm(true - seen) < 0.005)
+        True
         """
     def pose(self, t: typing.SupportsFloat | typing.SupportsIndex) -> tuple:
         """
         (x, y, theta) of the base, m and rad, at time t.
+        
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from thing_kin import rmma
+        >>> run = rmma.World().start(0.02, [[0.0, 0.6], [0.2, 0.6]], np.random.default_rng(0))
+        >>> run.pose(0.0)[:2]
+        (-0.2, 0.0)
         """
     def sample_time(self, a: numpy.typing.ArrayLike, b: numpy.typing.ArrayLike) -> float:
         """
         s from one reading of the laser to the next.
+        
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from thing_kin import rmma
+        >>> run = rmma.World().start(0.02, [[0.0, 0.6], [0.2, 0.6]], np.random.default_rng(0))
+        >>> round(run.sample_time((0.2, 0.6), (0.2, 0.618)), 9)
+        0.26
         """
 class ManipulatorArm:
     """
@@ -271,19 +322,46 @@ class ManipulatorArm:
     >>> arm.reaches((0.2, 0.6)), arm.reaches((0.2, 1.6))
     (True, False)
     """
+    def __getstate__(self) -> tuple[thing_kin._core.Chain, float, float]:
+        ...
     def __init__(self, chain: thing_kin._core.Chain, height: typing.SupportsFloat | typing.SupportsIndex = 0.7, turn: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     def motion_time(self, a: numpy.typing.ArrayLike, b: numpy.typing.ArrayLike) -> float:
         """
         s from displacement `a`, (2,) m, to `b`, from rest to rest, without overhead.
+        
+        Raises
+        ------
+        ValueError
+            If one of them is out of reach.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> from thing_kin import rmma
+        >>> arm = rmma.ManipulatorArm(tk.robots.pioneer_lx_ur5())
+        >>> 0.0 < arm.motion_time((0.2, 0.6), (0.2, 0.605)) < arm.motion_time((0.2, 0.6), (-0.2, 0.6)) < 1.0
+        True
         """
     def reaches(self, displacement: numpy.typing.ArrayLike) -> bool:
         """
-        Whether the tool can be at (2,), m from the base.
+        Whether the tool can be at `displacement`, (2,) m from the base.
+        
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> from thing_kin import rmma
+        >>> arm = rmma.ManipulatorArm(tk.robots.pioneer_lx_ur5())
+        >>> arm.reaches((0.2, 0.6))
+        True
         """
     @property
     def chain(self) -> thing_kin._core.Chain:
-        ...
+        """
+        The arm's chain.
+        """
 class SearchMethod:
     """
     Members:

@@ -46,7 +46,8 @@ constexpr double kOdometryWhite = 0.002;  // m
 constexpr double kOdometryHeading = 0.5 * kDegree;
 constexpr double kArmDeviation = 0.001;  // m: what forward kinematics does not see
 constexpr double kLongestStep = 0.05;    // m: the way is taken as straight so far
-constexpr double kSlowestShare = 0.3;    // of v_b
+constexpr double kMostSteps = 1e6;
+constexpr double kSlowestShare = 0.3;  // of v_b
 // A reading that is this improbable was a jump, of the base or of its localization.
 constexpr double kJumpNis = 25.0;
 constexpr double kJumpOfBase = 0.008;     // m
@@ -136,8 +137,8 @@ void BaseEstimator::predict(double dt) {
   if (!(distance > 0.0)) {
     return;
   }
-  const double steps = std::ceil(distance / kLongestStep);
-  for (double step = 0.0; step < steps; ++step) {
+  const int steps = static_cast<int>(std::ceil(std::min(distance / kLongestStep, kMostSteps)));
+  for (int step = 0; step < steps; ++step) {
     for (std::size_t k = 0; k < bank_.size(); ++k) {
       predict_member(k, dt / steps, distance / steps);
     }

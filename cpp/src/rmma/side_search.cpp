@@ -53,7 +53,7 @@ bool register_first(SearchArm& arm, const Vector2d& fiducial) {
     const bool wide = attempt >= kAttempts;
     const double gap = wide ? 0.002 : 0.005;
     const SearchPoints points = spiral_points(
-        kFirstDisplacement, {.gap = gap, .spacing = gap, .count = wide ? 3000U : 45U});
+        first_displacement(), {.gap = gap, .spacing = gap, .count = wide ? 3000U : 45U});
     for (const Vector2d& point : points) {
       if (!arm.run().reaches(point)) {
         continue;

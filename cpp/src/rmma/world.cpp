@@ -48,7 +48,7 @@ class SimulatedRun final : public WorldRun {
     slip_ = world.slip_mean + world.slip_std * drive_.normal();
     curvature_ = world.curvature_mean + world.curvature_std * drive_.normal();
     odometry_bias_ = draw_pair(drive_, world.odo_bias_std);
-    const Vector2d start = side.front() - kFirstDisplacement;
+    const Vector2d start = side.front() - first_displacement();
     Node first;
     first.pose = Pose2(start.x(), start.y(), world.heading_std * drive_.normal());
     first.speed = world.speed_std * drive_.normal();
@@ -56,7 +56,7 @@ class SimulatedRun final : public WorldRun {
     nodes_.push_back(first);
     RandomStream map(mix_keys(key, kMap));
     for (const Vector2d& fiducial : side) {
-      true_.push_back(fiducial + draw_pair(map, world.map_std));
+      true_.emplace_back(fiducial + draw_pair(map, world.map_std));
     }
   }
 

@@ -84,9 +84,11 @@ void CoveringSearch::build() {
   for (const PlanarNormal& part : belief_) {
     // A cell is as wide as its middle is exact.
     const PlanarDensity density(part, pitch_ * pitch_ / 12.0);
-    for (std::size_t k = 0; k < mass_.size(); ++k) {
-      const Vector2d cell(static_cast<double>(k / side), static_cast<double>(k % side));
-      mass_[k] += density(corner_ + pitch_ * cell) * pitch_ * pitch_;
+    for (std::size_t i = 0, k = 0; i < side; ++i) {
+      for (std::size_t j = 0; j < side; ++j, ++k) {
+        const Vector2d cell(static_cast<double>(i), static_cast<double>(j));
+        mass_[k] += density(corner_ + pitch_ * cell) * pitch_ * pitch_;
+      }
     }
   }
   remaining_ = 0.0;

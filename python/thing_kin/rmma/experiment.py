@@ -74,7 +74,19 @@ class WorldLike(Protocol):
     def start(
         self, velocity: float, side: npt.NDArray[np.float64], rng: np.random.Generator
     ) -> Any:
-        """Begin a drive along `side`, (n, 2) in its own frame, at `velocity` m/s."""
+        """Begin a drive along `side`, (n, 2) in its own frame, at `velocity` m/s.
+
+        The base stands at `side[0] - (0.20, 0.60)` and drives along +x.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from thing_kin import rmma
+        >>> world: rmma.WorldLike = rmma.World()  # it is one itself
+        >>> drive = world.start(0.02, np.array([[0.2, 0.6]]), np.random.default_rng(0))
+        >>> drive.pose(0.0)[:2]
+        (0.0, 0.0)
+        """
 
 
 def run(

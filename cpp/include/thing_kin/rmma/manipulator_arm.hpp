@@ -24,6 +24,8 @@ class ManipulatorArm {
   double motion_time(const JointVector& from, const JointVector& to) const noexcept;
 
   const Chain& chain() const noexcept { return *chain_; }
+  double height() const noexcept { return height_; }
+  double turn() const noexcept { return turn_; }
 
  private:
   std::shared_ptr<const Chain> chain_;

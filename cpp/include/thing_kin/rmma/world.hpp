@@ -47,7 +47,7 @@ struct World {
 void check_world(const World& world);
 
 /// Where the base stands when a side's first fiducial is registered: its tool's displacement.
-inline const Eigen::Vector2d kFirstDisplacement(0.20, 0.60);
+inline Eigen::Vector2d first_displacement() noexcept { return {0.20, 0.60}; }
 
 /// A drive in that world. `side`: fiducials as listed, (n) in the side's frame. The same key gives
 /// the same drive, whatever is asked of it and in which order.
