@@ -13,7 +13,8 @@ from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent.parent / "python" / "thing_kin"
 MODULES = tuple(
-    f"thing_kin._{name}" for name in ("core", "ceres", "estimation", "kdl", "odometry", "urdf")
+    f"thing_kin._{name}"
+    for name in ("calibration", "ceres", "core", "estimation", "kdl", "odometry", "urdf")
 )
 
 
