@@ -24,7 +24,11 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using BlockMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
+constexpr double kRoughly = 1e-4;   // of the cost: while the noise is sought
+constexpr double kExactly = 1e-12;  // of the cost
+constexpr double kSameNoise = 0.02;
 constexpr double kLeastNoise = 1e-7;  // m, rad: nothing is measured better
 
 // All residuals at once, when Ceres says that the values are new.
@@ -136,12 +140,12 @@ std::unique_ptr<ceres::LossFunction> make_loss(CalibrationLoss loss, double scal
   return std::make_unique<ceres::TrivialLoss>();
 }
 
-ceres::Solver::Options solver_options(int max_iterations) {
+ceres::Solver::Options solver_options(int max_iterations, double tolerance) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
   options.max_num_iterations = max_iterations;
   options.initial_trust_region_radius = 1e6;
-  options.function_tolerance = 1e-12;
+  options.function_tolerance = tolerance;
   options.gradient_tolerance = 1e-14;
   options.parameter_tolerance = 1e-12;
   options.logging_type = ceres::SILENT;
@@ -178,24 +182,27 @@ class Fit {
     if (estimates_noise_) {
       first_noise();
     }
-    bool converged = true;
     constexpr int kRounds = 12;
     for (int round = 0; round < kRounds; ++round) {
       residuals_.weigh(fit_.state, fit_.noise);
       const bool is_first = round == 0 && options_.loss != CalibrationLoss::kLinear;
-      converged = solve(is_first ? CalibrationLoss::kHuber : options_.loss);
+      solve(is_first ? CalibrationLoss::kHuber : options_.loss, kRoughly);
+      if (!estimates_noise_ && round > 0) {
+        break;
+      }
       look();
-      const double change = estimates_noise_ ? rescale(round) : 0.0;
-      if (round > 0 && change < 0.01) {
+      if (estimates_noise_ && rescale(round) < kSameNoise && round > 0) {
         break;
       }
     }
+    residuals_.weigh(fit_.state, fit_.noise);
+    const bool converged = solve(options_.loss, kExactly);
     finish(converged);
     return std::move(fit_);
   }
 
  private:
-  bool solve(CalibrationLoss loss) {
+  bool solve(CalibrationLoss loss, double tolerance) {
     fit_.state = model_.recentered(fit_.state);
     Evaluation evaluation(residuals_, fit_.state);
     ceres::Problem::Options ownership;
@@ -215,7 +222,7 @@ class Fit {
     }
     problem.AddResidualBlock(&prior, nullptr, values);
     ceres::Solver::Summary summary;
-    ceres::Solve(solver_options(options_.max_iterations), &problem, &summary);
+    ceres::Solve(solver_options(options_.max_iterations, tolerance), &problem, &summary);
     fit_.iterations += static_cast<int>(summary.iterations.size());
     fit_.state = model_.recentered(fit_.state);
     return summary.termination_type == ceres::CONVERGENCE;
@@ -293,7 +300,7 @@ class Fit {
       return round > 1 ? 0.0 : 1.0;
     }
     const Index k = data_.position_rows();
-    const bool by_median = options_.loss != CalibrationLoss::kLinear && round < 3;
+    const bool by_median = options_.loss != CalibrationLoss::kLinear && round < 2;
     const auto updated = [&](double before, Index first, Index count) {
       return std::max(before * std::sqrt(factor(first, count, by_median)), kLeastNoise);
     };
@@ -344,8 +351,8 @@ class Fit {
     fit_.outliers.assign(fit_.blocks.size(), false);
     for (std::size_t b = 0; b < fit_.blocks.size(); ++b) {
       const Index row = static_cast<Index>(b) * m_;
-      const MatrixXd own = MatrixXd::Identity(m_, m_) - H_.middleRows(row, m_);
-      const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(0.5 * (own + own.transpose()));
+      const BlockMatrix own = BlockMatrix::Identity(m_, m_) - H_.middleRows(row, m_);
+      const Eigen::SelfAdjointEigenSolver<BlockMatrix> eigen(0.5 * (own + own.transpose()));
       const VectorXd along = eigen.eigenvectors().transpose() * r_.segment(row, m_);
       double square = 0.0;
       for (Index i = 0; i < m_; ++i) {

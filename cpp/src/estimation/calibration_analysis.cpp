@@ -60,6 +60,9 @@ MatrixXd reduced(const MatrixXd& motions, const VectorXd& effect, const VectorXd
   scaled = (deviations.array() / effect.array()).matrix().asDiagonal() * scaled;
   for (Index k = 0; k < scaled.cols(); ++k) {
     scaled.col(k) /= scaled(pivots[static_cast<std::size_t>(k)], k);
+    const VectorXd motion = scaled.col(k);
+    const auto first = std::ranges::find_if(motion, [](double x) { return x != 0.0; });
+    scaled.col(k) *= *first < 0.0 ? -1.0 : 1.0;
   }
   return scaled;
 }
@@ -79,7 +82,7 @@ CalibrationSight calibration_sight(const RowMajorMatrix& J,
   const VectorXd norms = A.colwise().norm();
   const Eigen::HouseholderQR<MatrixXd> qr(A);
   const MatrixXd R = qr.matrixQR().topRows(p).triangularView<Eigen::Upper>();
-  const Eigen::JacobiSVD<MatrixXd> svd(R, Eigen::ComputeFullV);
+  const Eigen::BDCSVD<MatrixXd> svd(R, Eigen::ComputeFullV);
   sight.singular_values = svd.singularValues();
   const VectorXd information = sight.singular_values.array().square() / inflation;
   sight.rank = static_cast<int>((information.array() > kTold).count());

@@ -119,7 +119,7 @@ void CalibrationResiduals::errors(const CalibrationState& state, Eigen::VectorXd
     const Index row = static_cast<Index>(b) * m;
     e.segment(row, m) = measured.error;
     if (D != nullptr) {
-      D->middleRows(row, m).noalias() = measured.by_twist * twists;
+      D->middleRows(row, m) = measured.by_twist.lazyProduct(twists);
       for (Index i = size() - 1; i >= 0; --i) {
         const CalibrationParameter& parameter = model_.parameters()[static_cast<std::size_t>(i)];
         if (parameter.part != CalibrationPart::kPoint) {
@@ -142,6 +142,7 @@ void CalibrationResiduals::weigh(const CalibrationState& state, const Calibratio
     return all[all.size() == 1 ? 0 : i];
   };
   whiteners_.resize(blocks_.size());
+  is_diagonal_ = data_.covariances.empty() && data_.joint_covariances.empty();
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const auto [posture, point] = blocks_[b];
     const auto at = static_cast<std::size_t>(posture * data_.per_posture() + point);
@@ -179,6 +180,13 @@ void CalibrationResiduals::evaluate(const CalibrationState& state, Eigen::Vector
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const Index row = static_cast<Index>(b) * m;
     const BlockMatrix& W = whiteners_[b];
+    if (is_diagonal_) {
+      r.segment(row, m).array() *= W.diagonal().array();
+      for (Index i = 0; J != nullptr && i < m; ++i) {
+        J->row(row + i) *= W(i, i);
+      }
+      continue;
+    }
     r.segment(row, m) = (W * r.segment(row, m)).eval();
     if (J != nullptr) {
       J->middleRows(row, m) = (W * J->middleRows(row, m)).eval();

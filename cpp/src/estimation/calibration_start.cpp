@@ -60,7 +60,7 @@ class Start {
 
   CalibrationState find(const CalibrationModel& model) {
     Unknowns found = known();
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < 4; ++i) {
       found = solve(found);
       reweigh(found);
     }
@@ -120,33 +120,36 @@ class Start {
 
   bool points_are_free() const { return frees_tool_ || frees_points_; }
 
-  // Columns 0-8: M by columns; 9-11: u; then the points.
+  // Columns 0-8: M by columns; 9-11: u; then the points. Each sight has one of these.
   Unknowns solve(const Unknowns& before) const {
     const Index points = points_are_free() ? 3 * points_.cols() : 0;
     const Index base = frees_base_ ? 12 : 0;
-    MatrixXd A = MatrixXd::Zero(base + points, base + points);
-    VectorXd b = VectorXd::Zero(base + points);
-    MatrixXd row = MatrixXd::Zero(3, base + points);
+    MatrixXd A = MatrixXd::Zero(12 + points, 12 + points);
+    VectorXd b = VectorXd::Zero(12 + points);
+    Eigen::Matrix<double, 3, 12> row = Eigen::Matrix<double, 3, 12>::Zero();
+    row.rightCols<3>().setIdentity();
     for (const Sight& sight : sights_) {
-      row.setZero();
       Vector3d right = sight.last.translation;
-      if (frees_base_) {
-        for (Index axis = 0; axis < 3; ++axis) {
-          row.middleCols<3>(3 * axis) = sight.place[axis] * Matrix3d::Identity();
-        }
-        row.middleCols<3>(9).setIdentity();
-      } else {
+      for (Index axis = 0; axis < 3; ++axis) {
+        row.middleCols<3>(3 * axis).diagonal().setConstant(sight.place[axis]);
+      }
+      if (!frees_base_) {
         right -= before.root * sight.place;
       }
-      if (points_are_free()) {
-        row.middleCols<3>(base + 3 * sight.point) = -sight.last.rotation;
-      } else {
+      if (!points_are_free()) {
         right += sight.last.rotation * before.points.col(sight.point);
+      } else {
+        const Index at = 12 + 3 * sight.point;
+        A.block<12, 3>(0, at) -= sight.weight * row.transpose() * sight.last.rotation;
+        A.block<3, 3>(at, at).diagonal().array() += sight.weight;
+        b.segment<3>(at) -= sight.weight * sight.last.rotation.transpose() * right;
       }
-      A.noalias() += sight.weight * row.transpose() * row;
-      b.noalias() += sight.weight * row.transpose() * right;
+      A.topLeftCorner<12, 12>() += sight.weight * row.transpose() * row;
+      b.head<12>() += sight.weight * row.transpose() * right;
     }
-    const VectorXd x = least_norm(A, b);
+    A.bottomLeftCorner(points, 12) = A.topRightCorner(12, points).transpose();
+    const Index size = base + points;
+    const VectorXd x = least_norm(A.bottomRightCorner(size, size), b.tail(size));
     Unknowns after = before;
     if (points_are_free()) {
       after.points = Eigen::Map<const Eigen::Matrix3Xd>(x.data() + base, 3, points_.cols());
@@ -171,7 +174,7 @@ class Start {
 
   // Once M is a rotation: points and base in turn, each the best for the other.
   void settle(Unknowns& unknowns) const {
-    for (int i = 0; i < 10; ++i) {
+    for (int i = 0; i < 4; ++i) {
       if (points_are_free()) {
         Eigen::Matrix3Xd sum = Eigen::Matrix3Xd::Zero(3, points_.cols());
         VectorXd weight = VectorXd::Constant(points_.cols(), 1e-12);
@@ -185,17 +188,17 @@ class Start {
       if (!frees_base_) {
         break;
       }
-      Eigen::Matrix3Xd from(3, sights_.size());
-      Eigen::Matrix3Xd to(3, sights_.size());
-      for (std::size_t k = 0; k < sights_.size(); ++k) {
-        const double root = std::sqrt(sights_[k].weight);
-        from.col(static_cast<Index>(k)) = sights_[k].place;
-        to.col(static_cast<Index>(k)) =
-            sights_[k].last * Vector3d(unknowns.points.col(sights_[k].point));
-        weights_.conservativeResize(static_cast<Index>(sights_.size()));
-        weights_[static_cast<Index>(k)] = root * root;
+      const auto sights = static_cast<Index>(sights_.size());
+      Eigen::Matrix3Xd from(3, sights);
+      Eigen::Matrix3Xd to(3, sights);
+      VectorXd weights(sights);
+      for (Index k = 0; k < sights; ++k) {
+        const Sight& sight = sights_[static_cast<std::size_t>(k)];
+        from.col(k) = sight.place;
+        to.col(k) = sight.last * Vector3d(unknowns.points.col(sight.point));
+        weights[k] = sight.weight;
       }
-      unknowns.root = fitted(from, to, weights_);
+      unknowns.root = fitted(from, to, weights);
     }
   }
 
@@ -232,7 +235,6 @@ class Start {
   bool frees_base_ = false, frees_tool_ = false, frees_points_ = false, is_pose_ = false;
   Eigen::Matrix3Xd points_;
   std::vector<Sight> sights_;
-  mutable VectorXd weights_;
 };
 
 // Grows slowly with what is far off, so that outliers decide nothing.

@@ -208,6 +208,9 @@ def _result(run: CalibrationRun, estimates_noise: bool, points: ArrayLike | None
         distances=distances if k > 1 else distances[:, 0],
         outliers=tuple(outliers if k > 1 else (posture for posture, _ in outliers)),
         iterations=fit.iterations,
+        cross_validated_rms_position=nan,
+        cross_validated_rms_rotation=nan,
+        fold_rms=(),
         _run=run,
     )
 

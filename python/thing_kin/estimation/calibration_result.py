@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -109,10 +109,10 @@ class Calibration:
     distances: Array
     outliers: tuple[Any, ...]
     iterations: int
-    _run: CalibrationRun = field(repr=False)
-    cross_validated_rms_position: float = float("nan")
-    cross_validated_rms_rotation: float = float("nan")
-    fold_rms: tuple[float, ...] = ()
+    cross_validated_rms_position: float
+    cross_validated_rms_rotation: float
+    fold_rms: tuple[float, ...]
+    _run: CalibrationRun
 
     @property
     def success(self) -> bool:
@@ -149,10 +149,10 @@ class Calibration:
         """Root mean square angle, rad; NaN where no rotation was measured."""
         return rms(self.errors[..., 3:])
 
-    @cached_property
+    @property
     def errors_nominal(self) -> Array:
         """As `errors`, of the nominal chain with base and tool (or points) that fit it best."""
-        return self._run.errors_nominal(self.names)
+        return self._errors_nominal
 
     @property
     def rms_position_nominal(self) -> float:
@@ -164,12 +164,10 @@ class Calibration:
         """As `rms_rotation`, of the nominal chain, rad."""
         return rms(self.errors_nominal[..., 3:])
 
-    @cached_property
+    @property
     def never_identifiable(self) -> tuple[str, ...]:
         """Parameters that postures all over the joints' range would not tell either."""
-        told = self._run.told_at(self._run.chain.random(EVERYWHERE, rng=0))
-        return tuple(n for n, is_told in zip(self.names, told, strict=True) if not is_told)
-
+        return self._never_identifiable
     @property
     def degenerate(self) -> bool:
         """Whether these postures leave unknown what others would tell."""
@@ -413,6 +411,15 @@ class Calibration:
             cross_validated_rms_rotation=rms(np.concatenate([e[:, 3:] for e in errors])),
             fold_rms=tuple(rms(e[:, :3]) for e in errors),
         )
+
+    @cached_property
+    def _errors_nominal(self) -> Array:
+        return self._run.errors_nominal(self.names)
+
+    @cached_property
+    def _never_identifiable(self) -> tuple[str, ...]:
+        told = self._run.told_at(self._run.chain.random(EVERYWHERE, rng=0))
+        return tuple(n for n, is_told in zip(self.names, told, strict=True) if not is_told)
 
     def _by_joint(self, group: str) -> Array:
         known = self.parameters

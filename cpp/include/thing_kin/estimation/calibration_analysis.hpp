@@ -16,8 +16,8 @@ struct CalibrationSight {
   Eigen::VectorXd singular_values;  ///< of the derivatives, each parameter in its deviations
   Eigen::MatrixXd covariance;       ///< of the parameters, deviations before included
   std::vector<bool> is_told;        ///< of each parameter: it is in no combination that is not
-  /// Columns: motions of the parameters (m, rad) that change nothing, each with a one at a
-  /// parameter of its own.
+  /// Columns: motions of the parameters (m, rad) that change nothing, each with a one, or a
+  /// minus one, at a parameter of its own; the first is positive.
   Eigen::MatrixXd unseen;
 };
 

@@ -88,6 +88,7 @@ class CalibrationResiduals {
   const CalibrationData& data_;
   std::vector<Block> blocks_;
   std::vector<BlockMatrix> whiteners_;
+  bool is_diagonal_ = true;  // all of these
   Eigen::VectorXd torques_;
 };
 
