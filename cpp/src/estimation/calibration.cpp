@@ -28,7 +28,7 @@ using BlockMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 
 
 constexpr double kRoughly = 1e-4;   // of the cost: while the noise is sought
 constexpr double kExactly = 1e-12;  // of the cost
-constexpr double kSameNoise = 0.02;
+constexpr double kSameNoise = 0.03;
 constexpr double kLeastNoise = 1e-7;  // m, rad: nothing is measured better
 
 // All residuals at once, when Ceres says that the values are new.
@@ -187,11 +187,11 @@ class Fit {
       residuals_.weigh(fit_.state, fit_.noise);
       const bool is_first = round == 0 && options_.loss != CalibrationLoss::kLinear;
       solve(is_first ? CalibrationLoss::kHuber : options_.loss, kRoughly);
-      if (!estimates_noise_ && round > 0) {
+      if (!estimates_noise_) {
         break;
       }
       look();
-      if (estimates_noise_ && rescale(round) < kSameNoise && round > 0) {
+      if (rescale(round) < kSameNoise && round > 0) {
         break;
       }
     }
@@ -300,7 +300,7 @@ class Fit {
       return round > 1 ? 0.0 : 1.0;
     }
     const Index k = data_.position_rows();
-    const bool by_median = options_.loss != CalibrationLoss::kLinear && round < 2;
+    const bool by_median = options_.loss != CalibrationLoss::kLinear && round < 1;
     const auto updated = [&](double before, Index first, Index count) {
       return std::max(before * std::sqrt(factor(first, count, by_median)), kLeastNoise);
     };
