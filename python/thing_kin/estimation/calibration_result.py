@@ -168,6 +168,7 @@ class Calibration:
     def never_identifiable(self) -> tuple[str, ...]:
         """Parameters that postures all over the joints' range would not tell either."""
         return self._never_identifiable
+
     @property
     def degenerate(self) -> bool:
         """Whether these postures leave unknown what others would tell."""
