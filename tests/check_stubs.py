@@ -14,7 +14,16 @@ from pathlib import Path
 PACKAGE = Path(__file__).resolve().parent.parent / "python" / "thing_kin"
 MODULES = tuple(
     f"thing_kin._{name}"
-    for name in ("core", "ceres", "estimation", "kdl", "odometry", "search", "urdf")
+    for name in (
+        "calibration",
+        "ceres",
+        "core",
+        "estimation",
+        "kdl",
+        "odometry",
+        "search",
+        "urdf",
+    )
 )
 
 

@@ -579,6 +579,28 @@ SEARCH = [
 ]
 
 # thing_kin.estimation, one list for each family of concepts.
+ARM_POSTURES = ARM.random(8, rng=0)
+ARM_POSES = ARM.fk(ARM_POSTURES)
+
+
+def calibrated(name: str, **others: Any) -> Callable[[Any], Any]:
+    known = {"q": ARM_POSTURES, "measured": ARM_POSES, "loss": "linear", **others}
+
+    def call(value: Any) -> np.ndarray:
+        found = est.calibrate(ARM, **{**known, name: value})
+        return np.concatenate([found.values, np.diag(found.covariance)])
+
+    return call
+
+
+CALIBRATION = [
+    Argument("calibrate", "q", ARM_POSTURES, calibrated("q"), moderate=True),
+    Argument("calibrate", "measured", ARM_POSES, calibrated("measured"), moderate=True),
+    Argument("calibrate", "covariance", 0.1 * np.eye(6), calibrated("covariance"), moderate=True),
+    Argument(
+        "calibrate", "q_covariance", 0.1 * np.eye(6), calibrated("q_covariance"), moderate=True
+    ),
+]
 STATE = {"x": np.array([0.5, 1.0, 0.2, -0.1]), "P": np.eye(4) + 0.1}
 MOVED = {"F": np.eye(4) + np.eye(4, k=2), "Q": 0.1 * np.eye(4)}
 DRIVEN = {"B": np.eye(4, 2), "u": np.array([0.1, 0.2])}
@@ -833,6 +855,7 @@ ODOMETRY = [
 ARGUMENTS = [
     *LIDAR,
     *SEARCH,
+    *CALIBRATION,
     *FILTERS,
     *ODOMETRY,
     *LOCALIZER,
@@ -891,6 +914,7 @@ OPTIONAL = {
     "motion_covariance",
     "reach_center",
     "within",
+    "q_covariance",
 }
 
 # Labels where such a name is not optional.

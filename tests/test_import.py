@@ -38,6 +38,7 @@ def test_it_loads_numpy_only() -> None:
         "thing_kin.kdl",
         "thing_kin._urdf",
         "thing_kin._ceres",
+        "thing_kin._calibration",
         "thing_kin._estimation",
         "thing_kin.estimation",
         "thing_kin._odometry",
@@ -58,6 +59,14 @@ def test_estimation_is_loaded_on_demand() -> None:
     assert "thing_kin._estimation" in loaded
     assert "yaml" not in loaded
     assert foreign(loaded) == foreign(modules_after("import thing_kin, numpy, numpy.typing"))
+
+
+def test_calibration_is_loaded_on_demand() -> None:
+    use = "import thing_kin as tk; from thing_kin import estimation as est; arm = tk.robots.ur5()"
+    assert "thing_kin._calibration" not in modules_after(use)
+    loaded = modules_after(f"{use}; q = arm.random(9, rng=0); est.calibrate(arm, q, arm.fk(q))")
+    assert "thing_kin._calibration" in loaded
+    assert foreign(loaded) == foreign(modules_after("import thing_kin, numpy.random, numpy.typing"))
 
 
 def test_odometry_is_loaded_on_demand() -> None:

@@ -48,6 +48,7 @@ def _parser() -> argparse.ArgumentParser:
     demo.add_argument("--no-plots", action="store_true", help="no pictures; needs no matplotlib")
     demo.set_defaults(command=_demo)
     _add_rmma(commands)
+    _add_calibrate(commands)
     return parser
 
 
@@ -77,6 +78,78 @@ def _add_rmma(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> 
     rmma.add_argument("--brief", action="store_true", help="fewer runs and worlds, no animation")
     rmma.add_argument("--no-plots", action="store_true", help="no pictures; needs no matplotlib")
     rmma.set_defaults(command=_rmma)
+
+
+def _add_calibrate(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    calibrate = commands.add_parser(
+        "calibrate",
+        help="what an arm differs by from its model",
+        description="Estimates an arm's errors from a table of joint readings and of what was "
+        "measured there. The first line names the columns: those called like the robot's joints "
+        "are readings (else the last ones), all others, in their order, measurements: x, y, z, "
+        "roll, pitch, yaw; or x, y, z and a quaternion w, x, y, z; or x, y, z of one or several "
+        "points on the tool (--points). Meters and radians; an empty or nan measurement was not "
+        "made.",
+        epilog=EPILOG.replace("the demo's own checks failed", "not converged, or too little data"),
+    )
+    calibrate.add_argument("table", type=Path, metavar="DATA.csv")
+    calibrate.add_argument(
+        "--robot",
+        default="ur10",
+        help="'ur5', 'ur10', 'thing', 'pioneer_lx_ur5' or a URDF file (default: %(default)s)",
+    )
+    calibrate.add_argument("--base-link", metavar="LINK", help="of the URDF; default: its root")
+    calibrate.add_argument("--tip-link", metavar="LINK", help="of the URDF; default: its leaf")
+    calibrate.add_argument(
+        "--parameters",
+        default="base,tool,joint_offsets",
+        help="groups or single ones, with commas between, or 'all' (default: %(default)s)",
+    )
+    calibrate.add_argument("--points", action="store_true", help="places of points, not poses")
+    calibrate.add_argument("--loss", default="cauchy", help="default: %(default)s")
+    calibrate.add_argument("--folds", type=int, default=5, help="default: %(default)s; 0: none")
+    calibrate.add_argument("--seed", type=int, default=0, help="of the folds")
+    calibrate.add_argument("--urdf", type=Path, metavar="OUT", help="writes the calibrated chain")
+    calibrate.add_argument("--yaml", type=Path, metavar="OUT", help="writes the UR driver's file")
+    calibrate.add_argument("--plot", type=Path, metavar="OUT", help="draws residuals and changes")
+    calibrate.set_defaults(command=_calibrate)
+
+
+def _calibrate(arguments: argparse.Namespace) -> int:
+    from thing_kin import estimation as est
+    from thing_kin.estimation import calibration_table
+
+    try:
+        chain = _robot(arguments)
+        q, measured = calibration_table.read(arguments.table, chain, arguments.points)
+        result = est.calibrate(
+            chain,
+            q,
+            measured,
+            parameters=arguments.parameters.split(","),
+            loss=arguments.loss,
+            folds=min(arguments.folds, len(q)),
+            rng=arguments.seed,
+        )
+        print(result)
+        if arguments.urdf:
+            arguments.urdf.write_text(result.to_urdf(), encoding="utf-8")
+        if arguments.yaml:
+            arguments.yaml.write_text(result.to_yaml(), encoding="utf-8")
+        if arguments.plot:
+            result.plot().savefig(arguments.plot, dpi=130)
+    except (ImportError, OSError, ValueError) as error:
+        return _fail(str(error))
+    return OK if result.success else CHECKS_FAILED
+
+
+def _robot(arguments: argparse.Namespace) -> tk.Chain:
+    known = {name: getattr(tk.robots, name) for name in ("ur5", "ur10", "thing", "pioneer_lx_ur5")}
+    if arguments.robot in known:
+        chain: tk.Chain = known[arguments.robot]()
+        return chain
+    path = Path(arguments.robot)
+    return tk.Chain.from_urdf(path, base=arguments.base_link, tip=arguments.tip_link)
 
 
 def _demo(arguments: argparse.Namespace) -> int:

@@ -33,6 +33,8 @@ from thing_kin._estimation import (
     pose_difference,
 )
 from thing_kin.estimation import models
+from thing_kin.estimation.calibration import calibrate
+from thing_kin.estimation.calibration_result import Calibration
 from thing_kin.estimation.consistency import ConsistencyReport, consistency_report
 from thing_kin.estimation.jacobian_check import JacobianCheck, check_jacobian
 from thing_kin.estimation.robot_localization import (
@@ -52,6 +54,7 @@ from thing_kin.estimation.simulation import Simulation, simulate
 __all__ = [
     "BaseEstimate",
     "BaseLocalizer",
+    "Calibration",
     "ConsistencyReport",
     "DeadReckoning",
     "DifferentialDriveOdometry",
@@ -74,6 +77,7 @@ __all__ = [
     "Simulation",
     "UnscentedKalmanFilter",
     "angles_from_ticks",
+    "calibrate",
     "check_jacobian",
     "chi_square_quantile",
     "consistency_report",

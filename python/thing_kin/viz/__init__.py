@@ -1,10 +1,11 @@
-"""Figures: paths, stick figures, joints, steps, traces, drives, scans, searches, movies.
+"""Figures: paths, joints, steps, traces, drives, scans, searches, arms' errors, movies.
 
 Needs the extra `viz` (`pip install thing_kin[viz]`); matplotlib is imported when the first figure
 is made. Figures are made without a display: save them with `figure.savefig("name.png")`.
 """
 
 from thing_kin.viz.animation import animate
+from thing_kin.viz.calibration import plot_calibration
 from thing_kin.viz.geometry import plot_path, plot_stick_figures, stick_figure
 from thing_kin.viz.lidar import plot_laser_odometry, plot_scan_match
 from thing_kin.viz.localization import plot_localization
@@ -24,6 +25,7 @@ from thing_kin.viz.trace import plot_trace
 __all__ = [
     "animate",
     "animate_rmma_run",
+    "plot_calibration",
     "plot_dexterity",
     "plot_joint_steps",
     "plot_joints",

@@ -1,0 +1,270 @@
+#include "thing_kin/estimation/calibration_model.hpp"
+
+#include <Eigen/Geometry>
+
+#include "thing_kin/lie/so3.hpp"
+
+namespace thing_kin {
+
+namespace {
+
+using Part = CalibrationPart;
+
+SE3 joint_motion(JointType type, double reading) {
+  SE3 T;
+  if (is_rotary(type)) {
+    T.rotation = Eigen::AngleAxisd(reading, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  } else if (type == JointType::kPrismatic) {
+    T.translation.z() = reading;
+  }
+  return T;
+}
+
+SE3 turn_about_y(double angle) {
+  return {Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()).toRotationMatrix(),
+          Eigen::Vector3d::Zero()};
+}
+
+bool is_row(Part part) {
+  return part == Part::kD || part == Part::kTheta || part == Part::kA || part == Part::kAlpha ||
+         part == Part::kBeta;
+}
+
+bool is_reading(Part part) {
+  return part == Part::kOffset || part == Part::kScale || part == Part::kSag;
+}
+
+}  // namespace
+
+CalibrationModel::CalibrationModel(const Chain& chain,
+                                   std::span<const CalibrationParameter> parameters)
+    : chain_(chain), parameters_(parameters.begin(), parameters.end()) {
+  const ChainDescription& description = chain_.description();
+  std::size_t joint = 0;
+  for (const Segment& segment : description.segments) {
+    Link link;
+    link.before = segment.before;
+    link.after = link.row_after = segment.after;
+    link.type = segment.type;
+    if (segment.type != JointType::kFixed) {
+      link.joint = description.order[joint++];
+    }
+    links_.push_back(link);
+  }
+  for (int i = 0; i < size(); ++i) {
+    const CalibrationParameter& parameter = parameters_[static_cast<std::size_t>(i)];
+    if (parameter.part == Part::kBase || parameter.part == Part::kTool ||
+        parameter.part == Part::kOrigin) {
+      motion_of(parameter.part, parameter.place).columns.emplace_back(i, parameter.axis);
+    } else if (parameter.part != Part::kPoint) {
+      links_[static_cast<std::size_t>(parameter.place)].own.push_back(i);
+    }
+  }
+  screws_.resize(parameters_.size());
+  joint_screws_.resize(static_cast<std::size_t>(chain.dof()));
+}
+
+CalibrationModel::Motion& CalibrationModel::motion_of(CalibrationPart part, int segment) {
+  if (part == Part::kBase) {
+    return base_motion_;
+  }
+  if (part == Part::kTool) {
+    return tool_motion_;
+  }
+  int& origin = links_[static_cast<std::size_t>(segment)].origin;
+  if (origin < 0) {
+    origin = static_cast<int>(origins_.size());
+    origins_.emplace_back();
+  }
+  return origins_[static_cast<std::size_t>(origin)];
+}
+
+void CalibrationModel::set(const CalibrationState& state) {
+  state_ = state;
+  const auto set_motion = [&](Motion& motion) {
+    Eigen::Vector3d turn = Eigen::Vector3d::Zero();
+    motion.E.translation.setZero();
+    for (const auto& [column, axis] : motion.columns) {
+      (axis < 3 ? motion.E.translation[axis] : turn[axis - 3]) = state.values[column];
+    }
+    motion.E.rotation = so3_exp(turn);
+    motion.turns = so3_left_jacobian(turn);
+  };
+  set_motion(base_motion_);
+  set_motion(tool_motion_);
+  for (Motion& motion : origins_) {
+    set_motion(motion);
+  }
+  for (std::size_t s = 0; s < links_.size(); ++s) {
+    set_row(s);
+  }
+}
+
+void CalibrationModel::set_row(std::size_t s) {
+  Link& link = links_[s];
+  const Segment& segment = chain_.description().segments[s];
+  double d = 0.0;
+  double theta = 0.0;
+  double a = 0.0;
+  double alpha = 0.0;
+  double beta = 0.0;
+  bool any = false;
+  for (const int i : link.own) {
+    const Part part = parameters_[static_cast<std::size_t>(i)].part;
+    const double value = state_.values[i];
+    any = any || is_row(part);
+    (part == Part::kD       ? d
+     : part == Part::kTheta ? theta
+     : part == Part::kA     ? a
+     : part == Part::kAlpha ? alpha
+                            : beta) += is_row(part) ? value : 0.0;
+  }
+  if (any) {
+    const DhForm form = *dh_form(segment);
+    link.row_after = dh_transform(form.d + d, form.theta + theta, form.a + a, form.alpha + alpha);
+    link.after = beta == 0.0 ? link.row_after : link.row_after * turn_about_y(beta);
+  }
+}
+
+SE3 CalibrationModel::pass(Motion& motion, const SE3& frame) {
+  const SE3 moved = frame * motion.E;
+  for (const auto& [column, axis] : motion.columns) {
+    Screw& screw = screws_[static_cast<std::size_t>(column)];
+    screw.is_turn = axis >= 3;
+    screw.axis = screw.is_turn ? frame.rotation * motion.turns.col(axis - 3)
+                               : Eigen::Vector3d(frame.rotation.col(axis));
+    screw.point = moved.translation;
+  }
+  return moved;
+}
+
+void CalibrationModel::pass_joint(const Link& link, const SE3& frame, const VectorView& q,
+                                  const VectorView& torques) {
+  Screw screw{frame.rotation.col(2), frame.translation, is_rotary(link.type), 1.0};
+  for (const int i : link.own) {
+    const auto k = static_cast<std::size_t>(i);
+    const Part part = parameters_[k].part;
+    if (is_reading(part)) {
+      screw.factor = part == Part::kScale ? q[link.joint]
+                     : part == Part::kSag ? torques[link.joint]
+                                          : 1.0;
+      screws_[k] = screw;
+    } else if (part == Part::kTheta || part == Part::kD) {
+      screws_[k] = {screw.axis, screw.point, part == Part::kTheta, 1.0};
+    }
+  }
+  screw.factor = 1.0;
+  joint_screws_[static_cast<std::size_t>(link.joint)] = screw;
+}
+
+void CalibrationModel::pass_row(const Link& link, const SE3& joint) {
+  const SE3 end = joint * link.row_after;
+  for (const int i : link.own) {
+    const auto k = static_cast<std::size_t>(i);
+    const Part part = parameters_[k].part;
+    if (part == Part::kA || part == Part::kAlpha || part == Part::kBeta) {
+      const Eigen::Vector3d axis = end.rotation.col(part == Part::kBeta ? 1 : 0);
+      screws_[k] = {axis, end.translation, part != Part::kA, 1.0};
+    }
+  }
+}
+
+Eigen::VectorXd CalibrationModel::readings(const VectorView& q, const VectorView& torques) const {
+  Eigen::VectorXd reading = q;
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const CalibrationParameter& parameter = parameters_[i];
+    const double value = state_.values[static_cast<Eigen::Index>(i)];
+    const int j = parameter.joint;
+    if (parameter.part == Part::kOffset) {
+      reading[j] += value;
+    } else if (parameter.part == Part::kScale) {
+      reading[j] += value * q[j];
+    } else if (parameter.part == Part::kSag) {
+      reading[j] += value * torques[j];
+    }
+  }
+  return reading;
+}
+
+SE3 CalibrationModel::tool(const VectorView& q, const VectorView& torques, TwistColumns* twists,
+                           TwistColumns* joint_twists) {
+  const Eigen::VectorXd reading = readings(q, torques);
+  SE3 T = pass(base_motion_, state_.base);
+  for (const Link& link : links_) {
+    T = T * link.before;
+    if (link.origin >= 0) {
+      T = pass(origins_[static_cast<std::size_t>(link.origin)], T);
+    }
+    if (link.type != JointType::kFixed) {
+      pass_joint(link, T, q, torques);
+      T = T * joint_motion(link.type, reading[link.joint]);
+      pass_row(link, T);
+    }
+    T = T * link.after;
+  }
+  T = pass(tool_motion_, T) * state_.tool;
+  if (twists != nullptr) {
+    write_twists(T.translation, *twists);
+  }
+  if (joint_twists != nullptr) {
+    for (std::size_t j = 0; j < joint_screws_.size(); ++j) {
+      const Screw& screw = joint_screws_[j];
+      auto column = joint_twists->col(static_cast<Eigen::Index>(j));
+      column.head<3>() =
+          screw.is_turn ? screw.axis.cross(T.translation - screw.point).eval() : screw.axis;
+      column.tail<3>() = screw.is_turn ? screw.axis : Eigen::Vector3d::Zero().eval();
+    }
+  }
+  return T;
+}
+
+void CalibrationModel::write_twists(const Eigen::Vector3d& tool, TwistColumns& twists) const {
+  for (std::size_t i = 0; i < screws_.size(); ++i) {
+    auto column = twists.col(static_cast<Eigen::Index>(i));
+    const Screw& screw = screws_[i];
+    if (parameters_[i].part == Part::kPoint) {
+      column.setZero();
+    } else if (screw.is_turn) {
+      column.head<3>() = screw.factor * screw.axis.cross(tool - screw.point);
+      column.tail<3>() = screw.factor * screw.axis;
+    } else {
+      column.head<3>() = screw.factor * screw.axis;
+      column.tail<3>().setZero();
+    }
+  }
+}
+
+Chain CalibrationModel::calibrated() const {
+  ChainDescription description = chain_.description();
+  for (std::size_t s = 0; s < links_.size(); ++s) {
+    const Link& link = links_[s];
+    Segment& segment = description.segments[s];
+    double offset = 0.0;
+    for (const int i : link.own) {
+      offset +=
+          parameters_[static_cast<std::size_t>(i)].part == Part::kOffset ? state_.values[i] : 0.0;
+    }
+    if (link.origin >= 0) {
+      segment.before = segment.before * origins_[static_cast<std::size_t>(link.origin)].E;
+    }
+    segment.after = offset == 0.0 ? link.after : joint_motion(link.type, offset) * link.after;
+  }
+  return Chain(std::move(description));
+}
+
+CalibrationState CalibrationModel::recentered(const CalibrationState& state) const {
+  CalibrationState centered = state;
+  const auto motion = [&](const Motion& of) {
+    Vector6 both = Vector6::Zero();
+    for (const auto& [column, axis] : of.columns) {
+      both[axis] = state.values[column];
+      centered.values[column] = 0.0;
+    }
+    return SE3{so3_exp(both.tail<3>()), both.head<3>()};
+  };
+  centered.base = state.base * motion(base_motion_);
+  centered.tool = motion(tool_motion_) * state.tool;
+  return centered;
+}
+
+}  // namespace thing_kin

@@ -1,0 +1,428 @@
+"""What a calibration found: numbers with deviations, what stays unknown, a report."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from thing_kin.estimation import calibration_report, ur_yaml
+from thing_kin.estimation.calibration_run import CalibrationRun, rms
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    import thing_kin as tk
+
+__all__ = ["Calibration"]
+
+Array = NDArray[np.float64]
+EVERYWHERE = 100  # random postures that stand for all
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Calibration:
+    """The arm as calibrated, and how sure that is.
+
+    Returned by `calibrate`. "Nominal" is the chain as it came, with base and tool (or points) as
+    they fit it best.
+
+    Parameters
+    ----------
+    status : str
+        "converged", "not converged" or "underdetermined": too little data to judge the noise.
+    chain : Chain
+        With all that is geometry: joint offsets, links. Scales and sag are not in it: `readings`.
+    base, tool : (4, 4)
+        base @ chain.fk(q) @ tool is the tool in the world.
+    points : (k, 3), m
+        Measured points on the tool.
+    names : tuple of str
+        Of all parameters.
+    values : (p,)
+        Of the parameters, as differences from nominal, m and rad. Base: x, y, z and a rotation
+        vector in the root's nominal axes; tool: the same in the last frame's.
+    std : (p,)
+        Standard deviations by the data and by the priors that were given; inf: the data don't tell.
+    covariance : (p, p)
+        With what is not told held within plausible bounds (20 mm, 50 mrad, 5 % for an arm's own).
+    unidentifiable : tuple of str
+        Parameters that are part of a combination which the data don't tell.
+    combinations : tuple of str
+        These combinations: motions of parameters (m, rad) that change nothing which was measured.
+    rank : int
+        How many combinations of parameters the data tell.
+    noise_position, noise_rotation : float
+        Standard deviations, m and rad, of one coordinate of a measurement; NaN where covariances
+        were given.
+    noise_is_estimated : bool
+        From the residuals; else 1 mm and 1 mrad, or the covariances.
+    variance_factor : float
+        Squared residuals in deviations, for each degree of freedom: 1 where the noise is right.
+    dof : float
+        Degrees of freedom: numbers measured less what the parameters take of them.
+    errors : (N, 6), (N, k, 3) or (N, 2)
+        Measured less predicted: of a pose, position and rotation vector in world axes. NaN where
+        nothing was measured.
+    distances : (N,) or (N, k)
+        Of the measurements, in deviations of their residuals.
+    outliers : tuple of int or of (int, int)
+        Postures, or postures and points, beyond the gate.
+    cross_validated_rms_position, cross_validated_rms_rotation : float
+        Of all measurements, each predicted by those of other folds; NaN: not done.
+    fold_rms : tuple of float
+        The first for each fold.
+    iterations : int
+        Of Ceres, in all.
+
+    Examples
+    --------
+    >>> import thing_kin as tk
+    >>> from thing_kin import estimation as est
+    >>> arm = tk.robots.ur5()
+    >>> q = arm.random(30, rng=0)
+    >>> est.calibrate(arm, q, arm.fk(q), parameters=("base", "tool")).success
+    True
+    """
+
+    status: str
+    chain: tk.Chain
+    base: Array
+    tool: Array
+    points: Array
+    names: tuple[str, ...]
+    values: Array
+    std: Array
+    covariance: Array
+    unidentifiable: tuple[str, ...]
+    combinations: tuple[str, ...]
+    rank: int
+    noise_position: float
+    noise_rotation: float
+    noise_is_estimated: bool
+    variance_factor: float
+    dof: float
+    errors: Array
+    distances: Array
+    outliers: tuple[Any, ...]
+    iterations: int
+    cross_validated_rms_position: float
+    cross_validated_rms_rotation: float
+    fold_rms: tuple[float, ...]
+    _run: CalibrationRun
+
+    @property
+    def success(self) -> bool:
+        """Whether the least squares have converged on data that exceed the parameters."""
+        return self.status == "converged"
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """Values by name."""
+        return dict(zip(self.names, self.values.tolist(), strict=True))
+
+    @property
+    def joint_offsets(self) -> Array:
+        """(n,), rad or m: what is added to the readings; 0 where not estimated."""
+        return self._by_joint("joint_offsets")
+
+    @property
+    def joint_scales(self) -> Array:
+        """(n,): true motion over what is read; 1 where not estimated."""
+        return 1.0 + self._by_joint("joint_scales")
+
+    @property
+    def compliances(self) -> Array:
+        """(n,), rad for each N m of the loads' torque; 0 where not estimated."""
+        return self._by_joint("sag")
+
+    @property
+    def rms_position(self) -> float:
+        """Root mean square distance of measured from predicted places, m."""
+        return rms(self.errors[..., :3])
+
+    @property
+    def rms_rotation(self) -> float:
+        """Root mean square angle, rad; NaN where no rotation was measured."""
+        return rms(self.errors[..., 3:])
+
+    @property
+    def errors_nominal(self) -> Array:
+        """As `errors`, of the nominal chain with base and tool (or points) that fit it best."""
+        return self._errors_nominal
+
+    @property
+    def rms_position_nominal(self) -> float:
+        """As `rms_position`, of the nominal chain, m."""
+        return rms(self.errors_nominal[..., :3])
+
+    @property
+    def rms_rotation_nominal(self) -> float:
+        """As `rms_rotation`, of the nominal chain, rad."""
+        return rms(self.errors_nominal[..., 3:])
+
+    @property
+    def never_identifiable(self) -> tuple[str, ...]:
+        """Parameters that postures all over the joints' range would not tell either."""
+        return self._never_identifiable
+
+    @property
+    def degenerate(self) -> bool:
+        """Whether these postures leave unknown what others would tell."""
+        return not set(self.unidentifiable) <= set(self.never_identifiable)
+
+    def readings(self, q: ArrayLike) -> Array:
+        """Joint positions for `chain` where q is read: with scales and sag, without offsets.
+
+        Parameters
+        ----------
+        q : (n,) or (N, n)
+
+        Returns
+        -------
+        (n,) or (N, n)
+
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> from thing_kin import estimation as est
+        >>> arm = tk.robots.ur5()
+        >>> q = arm.random(30, rng=0)
+        >>> result = est.calibrate(arm, q, arm.fk(q), parameters=("base", "tool"))
+        >>> bool((result.readings(q) == q).all())
+        True
+        """
+        q = np.asarray(q, dtype=float)
+        sag = self._run.torques(q)
+        corrected: Array = q * self.joint_scales
+        return corrected if sag is None else corrected + self.compliances * sag
+
+    def predict(self, q: ArrayLike) -> Array:
+        """Pose of the tool in the world where q is read, scales and sag included.
+
+        Parameters
+        ----------
+        q : (n,) or (N, n)
+
+        Returns
+        -------
+        (4, 4) or (N, 4, 4)
+
+        Examples
+        --------
+        >>> import numpy as np, thing_kin as tk
+        >>> from thing_kin import estimation as est
+        >>> arm = tk.robots.ur5()
+        >>> q = arm.random(30, rng=0)
+        >>> result = est.calibrate(arm, q, arm.fk(q), parameters=("base", "tool"))
+        >>> bool(np.allclose(result.predict(q), arm.fk(q)))
+        True
+        """
+        return np.asarray(self.base @ self.chain.fk(self.readings(q)) @ self.tool)
+
+    def propose_postures(
+        self,
+        count: int = 5,
+        candidates: ArrayLike | int = 500,
+        rng: int | np.random.Generator = 0,
+    ) -> Array:
+        """Find the postures that would tell most: D-optimal, one after the other.
+
+        Parameters
+        ----------
+        count : int
+        candidates : (M, n) or int
+            Postures to choose from (free of collisions, in sight), or how many to draw within the
+            joints' limits.
+        rng : int or Generator
+            Draws them.
+
+        Returns
+        -------
+        (count, n)
+
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> from thing_kin import estimation as est
+        >>> arm = tk.robots.ur5()
+        >>> q = arm.random(30, rng=0)
+        >>> result = est.calibrate(arm, q, arm.fk(q))
+        >>> result.propose_postures(2).shape
+        (2, 6)
+        """
+        if count < 1:
+            raise ValueError(f"count: got {count}, expected at least 1")
+        if isinstance(candidates, int):
+            if candidates < 1:
+                raise ValueError(f"candidates: got {candidates}, expected at least 1")
+            candidates = self._run.chain.random(candidates, rng=rng)
+        return self._run.most_telling(candidates, count)
+
+    def report(self) -> str:
+        """Return all of it in words.
+
+        Returns
+        -------
+        str
+
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> from thing_kin import estimation as est
+        >>> arm = tk.robots.ur5()
+        >>> q = arm.random(30, rng=0)
+        >>> print(est.calibrate(arm, q, arm.fk(q)).report().splitlines()[0])
+        Calibration of ur5: converged, 30 measurements at 30 postures
+        """
+        return calibration_report.report(self)
+
+    def __str__(self) -> str:
+        return self.report()
+
+    def __repr__(self) -> str:
+        return (
+            f"Calibration({self._run.chain.name}, {self.status}, {len(self.names)} parameters, "
+            f"rank {self.rank}, rms_position={self.rms_position:.3g})"
+        )
+
+    def plot(self) -> Figure:
+        """Draw the residuals before and after, and the parameters with their deviations.
+
+        Returns
+        -------
+        matplotlib Figure
+
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> from thing_kin import estimation as est
+        >>> arm = tk.robots.ur5()
+        >>> q = arm.random(30, rng=0)
+        >>> len(est.calibrate(arm, q, arm.fk(q)).plot().axes)
+        3
+        """
+        from thing_kin import viz
+
+        return viz.plot_calibration(self)
+
+    def to_urdf(self, name: str | None = None) -> str:
+        """Return the calibrated chain as URDF, as `Chain.to_urdf`; base and tool are not in it.
+
+        Parameters
+        ----------
+        name : str, optional
+            Of the robot; default: the chain's.
+
+        Returns
+        -------
+        str
+
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> from thing_kin import estimation as est
+        >>> arm = tk.robots.ur5()
+        >>> q = arm.random(30, rng=0)
+        >>> est.calibrate(arm, q, arm.fk(q)).to_urdf().startswith("<?xml")
+        True
+        """
+        return self.chain.to_urdf(name)
+
+    def to_ur_calibration(self) -> dict[str, dict[str, dict[str, float]]]:
+        """Return the calibrated chain as Universal Robots' driver wants it, for `tk.robots.ur5`.
+
+        Returns
+        -------
+        dict
+            {"kinematics": {"shoulder": {"x", "y", "z", "roll", "pitch", "yaw"}, ...}}
+
+        Raises
+        ------
+        ValueError
+            If the chain is not six turning joints, or ends in a turn or shift off the last axis,
+            which the driver's format can't say: hold those of the last row by priors of 0.
+
+        Examples
+        --------
+        >>> import numpy as np, thing_kin as tk
+        >>> from thing_kin import estimation as est
+        >>> arm = tk.robots.ur5()
+        >>> q = arm.random(30, rng=0)
+        >>> mapping = est.calibrate(arm, q, arm.fk(q)).to_ur_calibration()
+        >>> bool(np.allclose(tk.robots.ur5(mapping).fk(q), arm.fk(q)))
+        True
+        """
+        return ur_yaml.mapping_of(self.chain)
+
+    def to_yaml(self, hash: str = "") -> str:
+        """Return the same as the text of the driver's YAML file.
+
+        Parameters
+        ----------
+        hash : str
+            Of the controller's own calibration, which the driver compares; "": left out.
+
+        Returns
+        -------
+        str
+
+        Examples
+        --------
+        >>> import thing_kin as tk
+        >>> from thing_kin import estimation as est
+        >>> arm = tk.robots.ur5()
+        >>> q = arm.random(30, rng=0)
+        >>> est.calibrate(arm, q, arm.fk(q)).to_yaml().splitlines()[:2]
+        ['kinematics:', '  shoulder:']
+        """
+        return ur_yaml.yaml_of(self.to_ur_calibration(), hash)
+
+    def cross_validated(self, folds: int, rng: np.random.Generator) -> Calibration:
+        """Return the same with the rms of held-out postures; see `calibrate`.
+
+        Parameters
+        ----------
+        folds : int
+        rng : Generator
+            Deals the postures out; equal ones (to 1e-6) stay together.
+
+        Returns
+        -------
+        Calibration
+
+        Examples
+        --------
+        >>> import numpy as np, thing_kin as tk
+        >>> from thing_kin import estimation as est
+        >>> arm = tk.robots.ur5()
+        >>> q = arm.random(30, rng=0)
+        >>> result = est.calibrate(arm, q, arm.fk(q))
+        >>> result = result.cross_validated(3, np.random.default_rng(0))
+        >>> len(result.fold_rms), result.cross_validated_rms_position < 1e-5
+        (3, True)
+        """
+        errors = self._run.held_out_errors(folds, rng)
+        return replace(
+            self,
+            cross_validated_rms_position=rms(np.concatenate([e[:, :3] for e in errors])),
+            cross_validated_rms_rotation=rms(np.concatenate([e[:, 3:] for e in errors])),
+            fold_rms=tuple(rms(e[:, :3]) for e in errors),
+        )
+
+    @cached_property
+    def _errors_nominal(self) -> Array:
+        return self._run.errors_nominal(self.names)
+
+    @cached_property
+    def _never_identifiable(self) -> tuple[str, ...]:
+        told = self._run.told_at(self._run.chain.random(EVERYWHERE, rng=0))
+        return tuple(n for n, is_told in zip(self.names, told, strict=True) if not is_told)
+
+    def _by_joint(self, group: str) -> Array:
+        known = self.parameters
+        n = self._run.chain.n
+        return np.array([known.get(f"{group}[{i}]", 0.0) for i in range(n)])
