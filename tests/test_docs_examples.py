@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import thing_kin as tk
-from thing_kin import estimation, odometry
+from thing_kin import estimation, odometry, rmma, search
 
 ROOT = Path(__file__).parent.parent
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -54,7 +54,8 @@ def test_the_table_leads_to(row: list[str]) -> None:
         assert (ROOT / "cpp/include/thing_kin" / header).is_file(), header
     for name in python:
         prefix, _, path = name.partition(".")  # of `tk.ik`, `est.KalmanFilter`, `.fk`
-        owner = {"": tk.Chain, "est": estimation, "odometry": odometry}.get(prefix, tk)
+        modules = {"est": estimation, "odometry": odometry, "rmma": rmma, "search": search}
+        owner = ({"": tk.Chain} | modules).get(prefix, tk)
         if not path.startswith("kdl."):  # an extension of its own, which a build may lack
             assert callable(reduce(getattr, path.split("."), owner)), name
     for test in tests:
