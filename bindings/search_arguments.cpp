@@ -11,13 +11,12 @@ std::uint64_t read_seed(const Randomness& rng) {
                           "a whole number >= 0, a numpy Generator or None");
   }
   if (rng.is_none()) {
-    const py::object entropy = py::module_::import("secrets").attr("randbits")(64);
-    return entropy.cast<std::uint64_t>();
+    return py::module_::import("secrets").attr("randbits")(64).cast<std::uint64_t>();
   }
   if (py::hasattr(rng, "integers")) {
     return rng.attr("integers")(std::int64_t{0}, INT64_MAX).cast<std::uint64_t>();
   }
-  const py::object index = py::reinterpret_steal<py::object>(PyNumber_Index(rng.ptr()));
+  const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(rng.ptr()));
   if (!index) {
     PyErr_Clear();
   } else if (index >= py::int_(0)) {

@@ -1,5 +1,6 @@
 #include "thing_kin/estimation/calibration.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -150,7 +151,7 @@ Array pose_array(const SE3& T) {
 Array bools(const std::vector<bool>& flags) {
   const auto n = static_cast<py::ssize_t>(flags.size());
   Array array = make_array(&n, 1);
-  std::copy(flags.begin(), flags.end(), array.mutable_data());
+  std::ranges::copy(flags, array.mutable_data());
   return array;
 }
 
@@ -299,6 +300,7 @@ CalibrationOptions read_options(const std::string& loss, const std::optional<dou
 void bind_fit(py::module_& m) {
   const auto places = [](const CalibrationFit& fit, auto member) {
     std::vector<int> all;
+    all.reserve(fit.blocks.size());
     for (const auto& block : fit.blocks) {
       all.push_back(block.*member);
     }

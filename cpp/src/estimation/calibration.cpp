@@ -293,7 +293,7 @@ class Fit {
 
   // Fits the noise to the residuals; returns by how much it changed, relatively.
   double rescale(int round) {
-    const double left = static_cast<double>(residuals_.rows()) - H_sum();
+    const double left = static_cast<double>(residuals_.rows()) - leverage_sum();
     fit_.noise_is_estimated = left >= kLeastFreedom;
     if (!fit_.noise_is_estimated) {
       fit_.noise = CalibrationNoise{};
@@ -314,7 +314,7 @@ class Fit {
                                 std::abs(fit_.noise.rotation / before.rotation - 1.0));
   }
 
-  double H_sum() const {
+  double leverage_sum() const {
     double sum = 0.0;
     for (Index row = 0; row < H_.rows(); ++row) {
       sum += H_(row, row % m_);
@@ -339,7 +339,7 @@ class Fit {
       slope += rho[1] + 2.0 * rho[2] * s / m_;
     }
     const auto n = static_cast<double>(fit_.blocks.size());
-    const double freedom = std::max(n - H_sum() / m_, 1.0);
+    const double freedom = std::max(n - leverage_sum() / m_, 1.0);
     const double mean = slope / n;
     return mean > 0.05 ? std::clamp(squared / freedom / (mean * mean), 0.5, 100.0) : 100.0;
   }
@@ -368,7 +368,7 @@ class Fit {
     residuals_.weigh(fit_.state, fit_.noise);
     look();
     fit_.sight = calibration_sight(J_, model_.parameters(), inflation());
-    fit_.dof = static_cast<double>(residuals_.rows()) - H_sum();
+    fit_.dof = static_cast<double>(residuals_.rows()) - leverage_sum();
     fit_.variance_factor = fit_.dof >= kLeastFreedom ? factor(0, m_, false) : 1.0;
     judge();
     residuals_.errors(fit_.state, fit_.errors, nullptr);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -44,8 +45,8 @@ struct Unknowns {
 class Start {
  public:
   Start(CalibrationModel& model, const CalibrationData& data, std::span<const int> postures,
-        const CalibrationState& nominal)
-      : nominal_(nominal) {
+        CalibrationState nominal)
+      : nominal_(std::move(nominal)) {
     for (const CalibrationParameter& parameter : model.parameters()) {
       frees_base_ = frees_base_ || parameter.part == CalibrationPart::kBase;
       frees_tool_ = frees_tool_ || parameter.part == CalibrationPart::kTool;
@@ -216,6 +217,7 @@ class Start {
   // Cauchy's weights about the median error.
   void reweigh(const Unknowns& unknowns) {
     std::vector<double> distances;
+    distances.reserve(sights_.size());
     for (const Sight& sight : sights_) {
       distances.push_back(
           (unknowns.root * sight.place - sight.last * Vector3d(unknowns.points.col(sight.point)))
