@@ -62,7 +62,7 @@ using OdometrySight = Eigen::Matrix<double, 3, BaseEstimator::kStates>;
 
 double squared(double x) { return x * x; }
 
-StateMatrix first_covariance(const NoiseGuess& scale, double velocity) {
+StateMatrix first_covariance(const NoiseGuess& scale) {
   StateMatrix P = StateMatrix::Zero(BaseEstimator::kStates, BaseEstimator::kStates);
   P(kX, kX) = P(kY, kY) = squared(kFarAway);
   P(kTheta, kTheta) = squared(kHeading * scale.drift);
@@ -71,7 +71,6 @@ StateMatrix first_covariance(const NoiseGuess& scale, double velocity) {
   P(kBiasX, kBiasX) = P(kBiasY, kBiasY) = squared(kBias * scale.odometry);
   P(kBiasTheta, kBiasTheta) = squared(kHeadingBias * scale.odometry);
   P(kCreep, kCreep) = squared(kCreepSpeed * scale.drift);
-  static_cast<void>(velocity);
   return P;
 }
 
@@ -119,7 +118,7 @@ BaseEstimator::BaseEstimator(const Vector2d& fiducial, const Vector2d& displacem
   State x = State::Zero();
   x.head<2>() = fiducial - displacement;
   for (const NoiseGuess& scale : kNoiseGuesses) {
-    bank_.emplace_back(x, first_covariance(scale, velocity));
+    bank_.emplace_back(x, first_covariance(scale));
   }
   PlanarNormal miss;
   miss.covariance = squared(0.5 * radius) * Matrix2d::Identity();

@@ -92,6 +92,9 @@ class CoveringDrive {
 
   void attempt(std::size_t i) {
     approach(side_[i]);
+    const std::vector<PlanarNormal> belief = with_tails(base_->offsets(displacement(side_[i])));
+    const Vector2d shift = first_shift(belief);
+    bring(side_[i] + shift);
     Attempt& attempt = out_.attempts[i];
     attempt.searched = true;
     SearchTrace trace;
@@ -99,7 +102,7 @@ class CoveringDrive {
     trace.start = time_;
     trace.predicted = base_->pose().head<2>();
     trace.covariance = base_->covariance();
-    look_for(i, attempt, trace);
+    look_for(i, belief, shift, attempt, trace);
     attempt.search_time = time_ - trace.start;
     if (out_.trace != nullptr) {
       trace.end = time_;
@@ -132,6 +135,8 @@ class CoveringDrive {
         base_->read_odometry(arm_.run().odometry(time_));
       }
     }
+    // Until then nothing more is learnt: where the tool is to go is known, and the arm may set out.
+    set_out_ = std::max(there, time_);
     pass(start - time_);
     const bool seen = start >= there + correction;
     if (seen) {
@@ -150,11 +155,18 @@ class CoveringDrive {
     offset_ += (arm_.seen() - arm_.command() - offset_) / looks_;
   }
 
-  void look_for(std::size_t i, Attempt& attempt, SearchTrace& trace) {
+  /// The short move to where the first stop is: the search begins when it is over.
+  void bring(const Vector2d& point) {
+    const Vector2d command = displacement(point) - offset_;
+    if (arm_.run().reaches(command)) {
+      pass(std::max(0.0, set_out_ + arm_.sample_time(command) - time_));
+    }
+  }
+
+  void look_for(std::size_t i, const std::vector<PlanarNormal>& belief, const Vector2d& shift,
+                Attempt& attempt, SearchTrace& trace) {
     const Vector2d& fiducial = side_[i];
-    const std::vector<PlanarNormal> belief = with_tails(base_->offsets(displacement(fiducial)));
     std::optional<CoveringSearch> covering;
-    Vector2d shift = first_shift(belief);
     if (arm_.run().reaches(displacement(fiducial + shift) - offset_)) {
       arm_.send(displacement(fiducial + shift) - offset_);
     } else {
@@ -262,6 +274,7 @@ class CoveringDrive {
   Vector2d offset_ = Vector2d::Zero();  // seen minus sent, since the last move
   double looks_ = 0.0;
   double time_ = 0.0;
+  double set_out_ = 0.0;  // s: from when on the arm may go to the first stop
 };
 
 }  // namespace
