@@ -48,6 +48,27 @@ void check_finite(const Batch& batch, const char* name) {
   }
 }
 
+// What numpy would make of a list or tuple of numbers, without the way there; nothing of anything
+// else.
+py::object from_numbers(py::handle argument) {
+  const bool tuple = PyTuple_CheckExact(argument.ptr());
+  if (!tuple && !PyList_CheckExact(argument.ptr())) {
+    return {};
+  }
+  const py::ssize_t count = Py_SIZE(argument.ptr());
+  const Array array = make_array(&count, 1);
+  auto* const out = reinterpret_cast<double*>(py::detail::array_proxy(array.ptr())->data);
+  for (py::ssize_t i = 0; i < count; ++i) {
+    PyObject* const number =
+        tuple ? PyTuple_GET_ITEM(argument.ptr(), i) : PyList_GET_ITEM(argument.ptr(), i);
+    if (!PyFloat_CheckExact(number)) {
+      return {};
+    }
+    out[i] = PyFloat_AS_DOUBLE(number);
+  }
+  return array;
+}
+
 // The array behind an argument: itself if it is C-ordered float64, else a converted copy.
 py::object as_float64(py::handle argument, const char* name, bool matrix = false) {
   const auto& api = py::detail::npy_api::get();
@@ -60,7 +81,8 @@ py::object as_float64(py::handle argument, const char* name, bool matrix = false
       return py::reinterpret_borrow<py::object>(argument);
     }
   }
-  return to_float64(argument, name, matrix);
+  py::object numbers = from_numbers(argument);
+  return numbers ? numbers : to_float64(argument, name, matrix);
 }
 
 }  // namespace
@@ -254,7 +276,7 @@ Array make_array(const Batch& batch, std::initializer_list<py::ssize_t> item) {
 
 Array frozen(const JointVector& v) {
   Array array(v.size(), v.data());
-  array.attr("flags").attr("writeable") = false;
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
 }
 

@@ -118,6 +118,20 @@ TEST(BaseEstimator, AHitTellsWhereTheToolWas) {
   }
 }
 
+TEST(BaseEstimator, AHitAsideTellsTheHeading) {
+  for (const double aside : {0.01, -0.01}) {
+    NoiseMemory memory;
+    BaseEstimator base(Vector2d(0.2, 0.6), kDisplacement, 0.02, kRadius, memory);
+    base.predict(50.0);
+    PlanarNormal miss;
+    miss.covariance = 1e-6 * Eigen::Matrix2d::Identity();
+    base.hit(Vector2d(1.2, 0.6 + aside), kDisplacement, miss);
+    // It drove a metre: had it only been turned from the start, by aside/1 m.
+    EXPECT_GT(base.pose().z() / aside, 0.3);
+    EXPECT_LT(base.pose().z() / aside, 3.0);
+  }
+}
+
 TEST(BaseEstimator, OffsetsAreTheirWeightsMean) {
   NoiseMemory memory;
   BaseEstimator base(Vector2d(0.2, 0.6), kDisplacement, 0.02, kRadius, memory);

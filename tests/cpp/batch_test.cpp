@@ -11,9 +11,9 @@
 
 #include <gtest/gtest.h>
 
+#include "every_level.hpp"
 #include "random_chain.hpp"
 #include "thing_kin/core/parallel.hpp"
-#include "thing_kin/core/simd.hpp"
 #include "thing_kin/lie/so3.hpp"
 
 namespace thing_kin {
@@ -24,20 +24,9 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 // Twelve products with entries up to a few meters; prismatic joints of 3 m.
 constexpr double kTolerance = 1e-12;
 
-class EveryLevel : public testing::TestWithParam<SimdLevel> {
- protected:
-  void SetUp() override {
-    if (GetParam() > best_simd_level()) {
-      GTEST_SKIP() << "this processor has no " << to_string(GetParam());
-    }
-    use_simd_level(GetParam());
-  }
-  void TearDown() override { use_simd_level(best_simd_level()); }
-};
+class EveryLevel : public test::EveryLevel {};
 
-INSTANTIATE_TEST_SUITE_P(Batch, EveryLevel,
-                         testing::Values(SimdLevel::kBaseline, SimdLevel::kAvx2,
-                                         SimdLevel::kAvx512),
+INSTANTIATE_TEST_SUITE_P(Batch, EveryLevel, test::every_level(),
                          [](const auto& level) { return to_string(level.param); });
 
 // The joints as the description has them, one matrix after the other.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "every_level.hpp"
 #include "random_chain.hpp"
 #include "thing_kin/kinematics/jacobian.hpp"
 #include "thing_kin/kinematics/manipulability.hpp"
@@ -13,6 +14,11 @@
 
 namespace thing_kin {
 namespace {
+
+class LogDexterityTest : public test::EveryLevel {};
+
+INSTANTIATE_TEST_SUITE_P(LogDexterity, LogDexterityTest, test::every_level(),
+                         [](const auto& level) { return to_string(level.param); });
 
 JointVector random_q(const Chain& chain, std::mt19937_64& rng) {
   std::uniform_real_distribution<double> angle(-2.5, 2.5);
@@ -84,26 +90,28 @@ void expect_derivatives(const Chain& chain, const double* weights, const Dexteri
   EXPECT_GT(checked, 20);
 }
 
-TEST(LogDexterity, DerivativesOfTheThing) { expect_derivatives(robots::thing(), nullptr, {}, 1); }
+TEST_P(LogDexterityTest, DerivativesOfTheThing) {
+  expect_derivatives(robots::thing(), nullptr, {}, 1);
+}
 
-TEST(LogDexterity, DerivativesOfEachMeasure) {
+TEST_P(LogDexterityTest, DerivativesOfEachMeasure) {
   expect_derivatives(robots::thing(), nullptr, {1.0, 0.0}, 2);
   expect_derivatives(robots::thing(), nullptr, {0.0, 1.0}, 3);
 }
 
-TEST(LogDexterity, DerivativesOfTheArmAlone) {
+TEST_P(LogDexterityTest, DerivativesOfTheArmAlone) {
   const Chain robot = robots::thing();
   const double arm[9] = {1, 1, 1, 1, 1, 1, 0, 0, 0};
   expect_derivatives(robot, arm, {}, 4);
 }
 
-TEST(LogDexterity, DerivativesWithUnequalWeights) {
+TEST_P(LogDexterityTest, DerivativesWithUnequalWeights) {
   const Chain robot = robots::thing();
   const double weights[9] = {1, 0.5, 2, 0.7, 1, 1, 0.3, 0.9, 0.2};
   expect_derivatives(robot, weights, {}, 5);
 }
 
-TEST(LogDexterity, DerivativesOfRandomChains) {
+TEST_P(LogDexterityTest, DerivativesOfRandomChains) {
   test::Generator rng(6);
   int redundant = 0;
   for (int i = 0; i < 40; ++i) {
@@ -139,7 +147,7 @@ void expect_the_same_along(const Chain& chain, const double* weights, std::uint6
   }
 }
 
-TEST(LogDexterity, AlongDirectionsItIsTheWholeOne) {
+TEST_P(LogDexterityTest, AlongDirectionsItIsTheWholeOne) {
   const double weights[9] = {1, 0.5, 2, 0.7, 1, 1, 0.3, 0.9, 0.2};
   expect_the_same_along(robots::thing(), nullptr, 11);
   expect_the_same_along(robots::thing(), weights, 12);
@@ -152,7 +160,7 @@ TEST(LogDexterity, AlongDirectionsItIsTheWholeOne) {
   }
 }
 
-TEST(LogDexterity, ValueIsThatOfTheSingularValues) {
+TEST_P(LogDexterityTest, ValueIsThatOfTheSingularValues) {
   const Chain robot = robots::thing();
   std::mt19937_64 rng(7);
   for (int i = 0; i < 100; ++i) {
@@ -170,13 +178,35 @@ TEST(LogDexterity, ValueIsThatOfTheSingularValues) {
   }
 }
 
-TEST(LogDexterity, LostRankIsInfinite) {
+TEST_P(LogDexterityTest, BoundIsALittleAbove) {
+  const Chain robot = robots::thing();
+  std::mt19937_64 rng(9);
+  const double weights[9] = {1, 0.5, 2, 0.7, 1, 1, 0.3, 0.9, 0.2};
+  double most = 0.0;
+  double sum = 0.0;
+  for (int i = 0; i < 500; ++i) {
+    const Jacobian J = jacobian_at(robot, random_q(robot, rng));
+    const double* const columns = i % 2 == 0 ? nullptr : weights;
+    const double above = log_dexterity_bound(J, columns) - log_dexterity(J, columns);
+    EXPECT_GE(above, -1e-9);
+    most = std::max(most, above);
+    sum += above;
+  }
+  EXPECT_LT(most, std::log(6.0) / 16.0);
+  EXPECT_LT(sum / 500, 0.03);
+  // All eigenvalues equal: the bound is as far off as it can be.
+  const Jacobian unit = Jacobian::Identity(6, 6);
+  EXPECT_NEAR(log_dexterity_bound(unit, nullptr), std::log(6.0) / 16.0, 1e-12);
+}
+
+TEST_P(LogDexterityTest, LostRankIsInfinite) {
   const Chain arm = robots::ur10();
   const JointVector q = JointVector::Zero(6);
   LogDexterity at;
   EXPECT_FALSE(log_dexterity(arm, jacobian_at(arm, q), nullptr, at));
   EXPECT_TRUE(std::isinf(at.value));
   EXPECT_TRUE(std::isinf(log_dexterity(jacobian_at(arm, q), nullptr)));
+  EXPECT_TRUE(std::isinf(log_dexterity_bound(jacobian_at(arm, q), nullptr)));
 }
 
 TEST(PoseCurvature, IsTheSecondDerivativeOfThePoseError) {

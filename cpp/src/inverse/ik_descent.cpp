@@ -27,11 +27,16 @@ constexpr double kProgress = 0.3;
 }  // namespace
 
 bool descend(const IkProblem& problem, int most, IkPoint& point, int& iterations) noexcept {
+  Posture posture;
+  return descend(problem, most, point, iterations, posture);
+}
+
+bool descend(const IkProblem& problem, int most, IkPoint& point, int& iterations,
+             Posture& posture) noexcept {
   const auto& [chain, frame, residual, box, mobility, position_tolerance, rotation_tolerance] =
       problem;
   JointVector q = point.q;
   PoseResidual::Value value;
-  Posture posture;
   Jacobian J;
   double best = std::numeric_limits<double>::infinity();
   std::array<double, kLeash> earlier;

@@ -66,18 +66,26 @@ bool summarize_values(const std::array<double, 3>& values, const DexterityWeight
   return true;
 }
 
-}  // namespace
-
-double log_dexterity(const Jacobian& J, const double* column_weights) noexcept {
+double value_by(void (*spectrum)(const DexterityArguments&, double*) noexcept, const Jacobian& J,
+                const double* column_weights) noexcept {
   std::array<int, kMaxDof> order;
   const auto n = static_cast<int>(J.cols());
   for (int i = 0; i < n; ++i) {
     order[static_cast<std::size_t>(i)] = i;
   }
   std::array<double, 3> values;
-  kernels().dexterity_spectrum({J.data(), order.data(), n, n, column_weights, 0.5, 0.5, kMaxDof},
-                               values.data());
+  spectrum({J.data(), order.data(), n, n, column_weights, 0.5, 0.5, kMaxDof}, values.data());
   return is_regular(values) ? 0.25 * std::log(values[0] / (values[1] * values[2])) : kInfinity;
+}
+
+}  // namespace
+
+double log_dexterity(const Jacobian& J, const double* column_weights) noexcept {
+  return value_by(kernels().dexterity_spectrum, J, column_weights);
+}
+
+double log_dexterity_bound(const Jacobian& J, const double* column_weights) noexcept {
+  return value_by(kernels().dexterity_bounds, J, column_weights);
 }
 
 bool log_dexterity(const Chain& chain, const Jacobian& J, const double* column_weights,

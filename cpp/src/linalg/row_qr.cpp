@@ -149,16 +149,22 @@ void RowQr::apply_q_transposed(double* x) const noexcept {
 void RowQr::columns_of_q(int first, int count, SmallMatrix& V) const noexcept {
   V.resize(f_, count);
   with_length(f_, [&](auto length) {
+    alignas(64) double padded[kMaxDof][length()];
     for (int column = 0; column < count; ++column) {
-      alignas(64) double padded[length()] = {};
-      padded[first + column] = 1.0;
-      // Reflector j is zero above row j: those below the column's own row do nothing to it.
-      for (int j = std::min(first + column, m_ - 1); j >= 0; --j) {
-        reflect<length()>(v_[j], beta_[j], padded);
+      Padded<length()>(padded[column]).setZero();
+      padded[column][first + column] = 1.0;
+    }
+    // Reflector j is zero above row j: those below a column's own row do nothing to it. The columns
+    // take turns, so that one need not wait for the other.
+    for (int j = std::min(first + count, m_) - 1; j >= 0; --j) {
+      for (int column = std::max(0, j - first); column < count; ++column) {
+        reflect<length()>(v_[j], beta_[j], padded[column]);
       }
+    }
+    for (int column = 0; column < count; ++column) {
       double* const to = &V(0, column);
       for (int i = 0; i < f_; ++i) {
-        to[i] = padded[i];
+        to[i] = padded[column][i];
       }
     }
   });

@@ -33,20 +33,51 @@ constexpr double kNoStep = 1e-10;
 constexpr double kAccept = 0.05;
 constexpr double kEnlarge = 0.7;
 
+// A descent is given up if this many times the gain of Newton's step would not make it the best.
+constexpr double kHope = 4.0;
+
 // Curvature below this fraction of the largest is taken for it, so that the program is convex.
 constexpr double kLeastCurvature = 1e-6;
 
 constexpr double kFirstPenalty = 5.0;
 
-// The hand is brought back to within this, as PoseResidual counts (about a radian a third of the
-// arm's length).
+// At its end a descent has the hand at the target within this, m and rad.
 constexpr double kOnTarget = 1e-11;
 constexpr int kMostReturns = 12;
+
+// On the way it may miss by what is worth this fraction of the step's gain, and never by more than
+// kLargestMiss: Newton's next correction squares it.
+constexpr double kMissWorth = 0.01;
+constexpr double kLargestMiss = 1e-3;
+
+// What a metre of violation costs a start, beside log sqrt(kappa/M).
+constexpr double kViolationPrice = 10.0;
+
+double on_target(const SE3& target) { return kOnTarget * (1.0 + target.translation.norm()); }
+
+template <typename Matrix>
+Matrix with_sizes_of_curvature(const Matrix& H) noexcept {
+  const Eigen::Index k = H.rows();
+  // Loops, and the solver in two steps: GCC 12 takes Eigen's own for reading what is not set.
+  Eigen::SelfAdjointEigenSolver<Matrix> solver(k);
+  solver.compute(H);
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < k; ++i) {
+    largest = std::max(largest, std::abs(solver.eigenvalues()[i]));
+  }
+  const double least = std::max(kLeastCurvature * largest, 1e-12);
+  Matrix sum = Matrix::Zero(k, k);
+  for (Eigen::Index i = 0; i < k; ++i) {
+    const auto v = solver.eigenvectors().col(i);
+    sum += std::max(std::abs(solver.eigenvalues()[i]), least) * v * v.transpose();
+  }
+  return sum;
+}
 
 IkProblem make_ik(const PosePlanner& planner, const JointBox& box, const Reach& reach,
                   const SE3& target) {
   const double length = reach.length() > 0.0 ? 0.3 * reach.length() : 1.0;
-  const double tolerance = kOnTarget * (1.0 + target.translation.norm());
+  const double tolerance = on_target(target);
   return {planner.chain(),
           planner.frame(),
           PoseResidual(target, PoseWeights{}, length),
@@ -106,28 +137,41 @@ void PoseDescent::measure(PosePoint& point) const noexcept {
   point.violation = -point.slack.cwiseMin(0.0).sum();
 }
 
-double PoseDescent::violation_at(const JointVector& q) noexcept {
+double PoseDescent::rank(const JointVector& q) noexcept {
   there_->q = q;
   place_joints(planner_.chain_, q.data(), there_->posture);
   measure(*there_);
-  return there_->violation;
+  geometric_jacobian(planner_.chain_, there_->posture, planner_.frame_,
+                     ReferenceFrame::kWorldAligned, there_->J);
+  const JointVector& weights = planner_.options_.column_weights;
+  return log_dexterity_bound(there_->J, weights.size() > 0 ? weights.data() : nullptr) +
+         kViolationPrice * there_->violation;
 }
 
-bool PoseDescent::place(const JointVector& q, int most, PosePoint& point) noexcept {
+// Inverse kinematics from q, to within the tolerance.
+bool PoseDescent::bring(const JointVector& q, int most, double tolerance,
+                        PosePoint& point) noexcept {
   IkPoint hand{q, {}};
   int returns = 0;
-  if (!thing_kin::descend(ik_, most, hand, returns)) {
-    if (hand.value.cost() < miss_) {
-      miss_ = hand.value.cost();
+  ik_.position_tolerance = ik_.rotation_tolerance = tolerance;
+  const bool reached = thing_kin::descend(ik_, most, hand, returns, point.posture);
+  ik_.position_tolerance = ik_.rotation_tolerance = on_target(ik_.residual.target());
+  if (!reached) {
+    if (hand.value.cost() < nearest_cost_) {
+      nearest_cost_ = hand.value.cost();
       nearest_ = hand.q;
     }
     return false;
   }
   point.q = hand.q;
-  place_joints(planner_.chain_, point.q.data(), point.posture);
+  point.miss << hand.value.e.head<3>() / ik_.residual.position_scale(), hand.value.log;
+  measure(point);
+  return true;
+}
+
+bool PoseDescent::derive(PosePoint& point) const noexcept {
   geometric_jacobian(planner_.chain_, point.posture, planner_.frame_, ReferenceFrame::kWorldAligned,
                      point.J);
-  measure(point);
   point.rows.factor(point.J);
   point.rows.null_space(point.Z);
   const JointVector& weights = planner_.options_.column_weights;
@@ -135,16 +179,26 @@ bool PoseDescent::place(const JointVector& q, int most, PosePoint& point) noexce
                              weights.size() > 0 ? weights.data() : nullptr, point.objective);
 }
 
+// The value alone.
+bool PoseDescent::evaluate(PosePoint& point) const noexcept {
+  geometric_jacobian(planner_.chain_, point.posture, planner_.frame_, ReferenceFrame::kWorldAligned,
+                     point.J);
+  const JointVector& weights = planner_.options_.column_weights;
+  point.objective.value = log_dexterity(point.J, weights.size() > 0 ? weights.data() : nullptr);
+  return std::isfinite(point.objective.value);
+}
+
 bool PoseDescent::begin(const JointVector& q) noexcept {
   mu_.setZero();
   nu_ = JointVector::Zero(q.size());
   radius_ = kFirstRadius;
   penalty_ = kFirstPenalty;
-  return place(q, kMostArrivals, *here_);
+  return bring(q, kMostArrivals, kLargestMiss, *here_) && derive(*here_);
 }
 
-// The null space of J, and the Lagrangian's gradient and Hessian in it. The pose's multipliers are
-// those of least squares, given those of the inequalities of the step before.
+// The way back to the target, which every step takes, and the Lagrangian's gradient and Hessian in
+// the null space of J. The pose's multipliers are those of least squares, given those of the
+// inequalities of the step before.
 void PoseDescent::reduce() noexcept {
   const SmallMatrix& Z = here_->Z;
   const JointVector& gradient = here_->objective.gradient;
@@ -166,10 +220,14 @@ void PoseDescent::reduce() noexcept {
     }
   }
   here_->rows.apply_q_transposed(pull.data());
-  Vector6 lambda = pull.head<6>();
-  here_->rows.solve_r(lambda.data());
-  add_pose_curvature(planner_.chain_, here_->J, -lambda, W);
+  lambda_ = pull.head<6>();
+  here_->rows.solve_r(lambda_.data());
+  add_pose_curvature(planner_.chain_, here_->J, -lambda_, W);
   // Small: coefficient by coefficient is quicker than by blocks.
+  Vector6 back = here_->miss;
+  here_->rows.solve_r_transposed(back.data());
+  back_.resize(gradient.size());
+  here_->rows.lift(back.data(), back_.data());
   g_.noalias() = Z.transpose().lazyProduct(gradient);
   const SmallMatrix WZ = W.lazyProduct(Z);
   H_.noalias() = Z.transpose().lazyProduct(WZ);
@@ -184,15 +242,16 @@ void PoseDescent::collect_forms() noexcept {
   forms_.topLeftCorner(k, n) = here_->Z.transpose();
   for (Eigen::Index j = 0; j < n; ++j) {
     const bool endless = ik_.box.is_endless(j);
-    lower_[j] = endless ? -radius_ : std::max(-radius_, ik_.box.lower(j) - here_->q[j]);
-    upper_[j] = endless ? radius_ : std::min(radius_, ik_.box.upper(j) - here_->q[j]);
+    const double from = here_->q[j] + back_[j];
+    lower_[j] = endless ? -radius_ : std::max(-radius_, ik_.box.lower(j) - from);
+    upper_[j] = endless ? radius_ : std::min(radius_, ik_.box.upper(j) - from);
   }
   inequalities_.clear();
   const double way = radius_ * std::sqrt(static_cast<double>(n));
   for (int i = 0; i < static_cast<int>(mu_.size()); ++i) {
     const std::size_t place = inequalities_.size();
     JointVector& along = gradients_[place];
-    const double slack = slack_gradient(*here_, i, along);
+    const double slack = slack_gradient(*here_, i, along) + along.dot(back_);
     if (slack > way * along.norm()) {
       continue;
     }
@@ -239,21 +298,10 @@ bool PoseDescent::stiffen(const FormsView& forms) noexcept {
 
 // The Hessian with the size of each curvature instead of itself.
 void PoseDescent::convexify() noexcept {
-  const Eigen::Index k = H_.rows();
-  // Loops, and the solver in two steps: GCC 12 takes Eigen's own for reading what is not set.
-  Eigen::SelfAdjointEigenSolver<SmallMatrix> solver(k);
-  solver.compute(H_);
-  std::array<double, kMaxDof> curvature{};
-  double largest = 0.0;
-  for (Eigen::Index i = 0; i < k; ++i) {
-    curvature[static_cast<std::size_t>(i)] = std::abs(solver.eigenvalues()[i]);
-    largest = std::max(largest, curvature[static_cast<std::size_t>(i)]);
-  }
-  H_.setZero();
-  for (Eigen::Index i = 0; i < k; ++i) {
-    const double least = std::max(kLeastCurvature * largest, 1e-12);
-    const auto v = solver.eigenvectors().col(i);
-    H_ += std::max(curvature[static_cast<std::size_t>(i)], least) * v * v.transpose();
+  if (H_.rows() == 3) {  // most robots: a size that the compiler knows is three times as fast
+    H_ = with_sizes_of_curvature<Eigen::Matrix3d>(H_);
+  } else {
+    H_ = with_sizes_of_curvature<SmallMatrix>(H_);
   }
 }
 
@@ -339,34 +387,84 @@ double PoseDescent::predicted_violation() const noexcept {
   return sum;
 }
 
-PoseDescent::Step PoseDescent::step() noexcept {
+bool PoseDescent::misses() const noexcept {
+  const double most = on_target(ik_.residual.target());
+  return here_->miss.head<3>().norm() > most || here_->miss.tail<3>().norm() > most;
+}
+
+// How far from the target a step of so much gain may end.
+double PoseDescent::loose_tolerance(double gain) const noexcept {
+  const double price = 1.0 + lambda_.cwiseAbs().maxCoeff() + penalty_;
+  return std::clamp(kMissWorth * gain / price, on_target(ik_.residual.target()), kLargestMiss);
+}
+
+// A step after which nothing is left to gain: the hand goes to the target, and no derivatives are
+// needed. kTaken: it is not the last after all.
+PoseDescent::Step PoseDescent::finish(const JointVector& q, double length) noexcept {
+  if (!bring(q, kMostReturns, on_target(ik_.residual.target()), *there_)) {
+    radius_ = 0.25 * length;
+    return Step::kRefused;
+  }
+  if (there_->violation <= planner_.options_.tolerance && evaluate(*there_)) {
+    std::swap(here_, there_);
+    return Step::kLast;
+  }
+  return Step::kTaken;
+}
+
+// The end of a descent that did not end by finish().
+bool PoseDescent::settle() noexcept {
+  if (misses()) {
+    if (!bring(here_->q, kMostReturns, on_target(ik_.residual.target()), *there_) ||
+        !evaluate(*there_)) {
+      return false;
+    }
+    std::swap(here_, there_);
+  }
+  return is_feasible();
+}
+
+PoseDescent::Step PoseDescent::step(double best) noexcept {
   reduce();
   collect_forms();
   if (!minimize()) {
     return Step::kStuck;
   }
-  const JointVector dq = here_->Z.lazyProduct(z_);
+  const JointVector dq = here_->Z.lazyProduct(z_);  // beside back_
   const double length = dq.cwiseAbs().maxCoeff();
   const double gain =
       -(g_.dot(z_) + 0.5 * z_.dot(H_ * z_)) + penalty_ * (here_->violation - predicted_violation());
   const bool feasible = is_feasible();
-  if (length <= kNoStep || (feasible && gain <= kLeastGain)) {
+  const bool done = length <= kNoStep || (feasible && gain <= kLeastGain);
+  if (done && !(exact_ && misses())) {
     return Step::kLast;
   }
-  JointVector q = here_->q + dq;
+  if (exact_ && length < 0.9 * radius_ && here_->objective.value - kHope * gain > best) {
+    return Step::kStuck;
+  }
+  JointVector q = here_->q + back_ + dq;
   for (Eigen::Index j = 0; j < q.size(); ++j) {
     q[j] = ik_.box.inside(j, q[j]);
   }
-  if (!place(q, kMostReturns, *there_)) {
+  const bool last = length <= kLastStep || (feasible && gain <= kLastGain);
+  if (exact_ && last && length < 0.9 * radius_) {
+    const Step outcome = finish(q, length);
+    if (outcome != Step::kTaken) {
+      return outcome;
+    }
+  } else if (!bring(q, kMostReturns, loose_tolerance(gain), *there_)) {
     radius_ = 0.25 * length;
     return Step::kRefused;
   }
+  if (!derive(*there_)) {
+    radius_ = 0.25 * length;
+    return Step::kRefused;
+  }
+  // What is missed to the target costs what its multipliers say.
   const double came = here_->objective.value - there_->objective.value +
+                      lambda_.dot(here_->miss - there_->miss) +
                       penalty_ * (here_->violation - there_->violation);
-  const bool last = exact_ && length < 0.9 * radius_ &&
-                    (length <= kLastStep || (feasible && gain <= kLastGain)) &&
-                    there_->violation <= planner_.options_.tolerance;
-  if (!last && !(came >= kAccept * gain)) {
+  if (!(came >= kAccept * gain)) {
     radius_ = 0.3 * length;
     return Step::kRefused;
   }
@@ -374,23 +472,24 @@ PoseDescent::Step PoseDescent::step() noexcept {
     radius_ = std::min(2.0 * radius_, kLargestRadius);
   }
   std::swap(here_, there_);
-  return last ? Step::kLast : Step::kTaken;
+  return Step::kTaken;
 }
 
-bool PoseDescent::descend(int most) noexcept {
+bool PoseDescent::descend(int most, double best) noexcept {
   if (here_->q.size() == 6) {  // nothing is free
-    return is_feasible();
+    return settle();
   }
   for (int i = 0; i < most; ++i) {
     ++iterations_;
-    const Step outcome = step();
+    const Step outcome = step(best);
     if (outcome == Step::kLast) {
-      return is_feasible();
+      return settle();
     }
     if (outcome == Step::kStuck || radius_ < kLeastRadius) {
-      return false;
+      break;
     }
   }
+  settle();
   return false;
 }
 

@@ -15,9 +15,10 @@ namespace thing_kin {
 /// The most iterations that bring the hand to the target from where it is.
 inline constexpr int kMostArrivals = 60;
 
-/// A configuration with the hand at the target, and what is known of it.
+/// A configuration with the hand at the target, but for a small miss, and what is known of it.
 struct PosePoint {
   JointVector q;
+  Vector6 miss;  // the way to the target, [linear, angular], axes of the world
   Posture posture;
   Jacobian J;
   RowQr rows;              // of J
@@ -41,8 +42,9 @@ class PoseDescent {
   /// or the Jacobian there has no full rank.
   bool begin(const JointVector& q) noexcept;
 
-  /// Descends from there. True: point() is feasible and stationary.
-  bool descend(int most) noexcept;
+  /// Descends from there. True: point() is feasible and stationary. False, too, where it is as good
+  /// as certain that the end would not be below `best`.
+  bool descend(int most, double best) noexcept;
 
   const PosePoint& point() const { return *here_; }
   bool is_feasible() const { return here_->violation <= planner_.options_.tolerance; }
@@ -52,13 +54,18 @@ class PoseDescent {
   /// Where the hand came nearest to the target of all that begin() could not bring there.
   const JointVector& nearest_miss() const { return nearest_; }
 
-  /// The sum of the inequalities' violations at q.
-  double violation_at(const JointVector& q) noexcept;
+  /// What a descent from q may come to, the less the better: log sqrt(kappa/M) there in a bound,
+  /// and what the inequalities are violated by at a price.
+  double rank(const JointVector& q) noexcept;
 
  private:
   enum class Step : std::uint8_t { kTaken, kRefused, kLast, kStuck };
 
-  bool place(const JointVector& q, int most, PosePoint& point) noexcept;
+  bool bring(const JointVector& q, int most, double tolerance, PosePoint& point) noexcept;
+  bool derive(PosePoint& point) const noexcept;
+  bool evaluate(PosePoint& point) const noexcept;
+  bool settle() noexcept;
+  bool misses() const noexcept;
   void measure(PosePoint& point) const noexcept;
   double slack_gradient(const PosePoint& point, int i, JointVector& gradient) const noexcept;
   void reduce() noexcept;
@@ -68,7 +75,9 @@ class PoseDescent {
   void convexify() noexcept;
   bool relax() noexcept;
   void remember_multipliers() noexcept;
-  Step step() noexcept;
+  Step step(double best) noexcept;
+  Step finish(const JointVector& q, double length) noexcept;
+  double loose_tolerance(double gain) const noexcept;
   double predicted_violation() const noexcept;
 
   const PosePlanner& planner_;
@@ -78,7 +87,7 @@ class PoseDescent {
   PosePoint* there_ = points_.data() + 1;
   int iterations_ = 0;
   JointVector nearest_;
-  double miss_ = std::numeric_limits<double>::infinity();
+  double nearest_cost_ = std::numeric_limits<double>::infinity();
 
   // The quadratic program of a step: z in the null space of J.
   SmallMatrix H_;
@@ -92,6 +101,8 @@ class PoseDescent {
   std::array<int, kMaxDof> stiffened_;
   Eigen::VectorXd mu_;  // of all slacks
   JointVector nu_;      // of the joints' sides
+  Vector6 lambda_;      // of the pose
+  JointVector back_;    // the shortest way to the target
   double radius_ = 0.0;
   double penalty_ = 0.0;
 };

@@ -1,6 +1,8 @@
 #include "pose_search.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "thing_kin/kinematics/pose_error.hpp"
 
@@ -8,8 +10,8 @@ namespace thing_kin {
 
 namespace {
 
-// What a metre of violation costs a start, beside log sqrt(kappa/M).
-constexpr double kViolationPrice = 10.0;
+// Starts nearer than this in each joint, rad or m, lead to the same optimum as a rule.
+constexpr double kApart = 0.7;
 
 JointVector clamped(const JointBox& box, const double* seed, Eigen::Index n) {
   JointVector q = Eigen::Map<const Eigen::VectorXd>(seed, n);
@@ -37,7 +39,8 @@ bool PoseSearch::try_from(const JointVector& q) {
     return false;
   }
   const int before = descent_.iterations();
-  const bool converged = descent_.descend(planner_.options_.max_iterations);
+  const double best = rank_.kind == Kind::kOptimum ? rank_.value : kInfinity;
+  const bool converged = descent_.descend(planner_.options_.max_iterations, best);
   out_of_iterations_ |= descent_.iterations() - before == planner_.options_.max_iterations;
   const PosePoint& point = descent_.point();
   const bool feasible = descent_.is_feasible();
@@ -48,6 +51,7 @@ bool PoseSearch::try_from(const JointVector& q) {
   if (rank < rank_) {
     rank_ = rank;
     best_.q = point.q;
+    best_.objective = std::exp(point.objective.value);
   }
   return converged;
 }
@@ -70,33 +74,52 @@ void PoseSearch::search_near() {
 
 std::vector<PoseSearch::Candidate> PoseSearch::sample() {
   std::vector<Candidate> candidates;
-  const JointVector& weights = planner_.options_.column_weights;
   Starts starts;
-  Posture posture;
-  Jacobian J;
   for (int i = 0; i < planner_.options_.samples && !starts_.exhausted(); ++i) {
     const int count = starts_.next(starts);
     for (int branch = 0; branch < count; ++branch) {
       const JointVector& q = starts[static_cast<std::size_t>(branch)];
-      place_joints(planner_.chain_, q.data(), posture);
-      geometric_jacobian(planner_.chain_, posture, planner_.frame_, ReferenceFrame::kWorldAligned,
-                         J);
-      const double value = log_dexterity(J, weights.size() > 0 ? weights.data() : nullptr);
-      candidates.push_back({q, value + kViolationPrice * descent_.violation_at(q)});
+      candidates.push_back({descent_.rank(q), samples_.size()});
+      samples_.insert(samples_.end(), q.data(), q.data() + q.size());
     }
   }
-  std::ranges::stable_sort(candidates, {}, &Candidate::rank);
+  std::ranges::sort(candidates);
   return candidates;
+}
+
+// Single linkage, as in Rinnooy Kan and Timmer (1987): not from where a descent has begun or ended.
+bool PoseSearch::is_apart(const JointVector& q) const {
+  return std::ranges::none_of(visited_, [&](const JointVector& other) {
+    for (Eigen::Index j = 0; j < q.size(); ++j) {
+      double way = q[j] - other[j];
+      if (planner_.box_.is_endless(j)) {
+        way = std::remainder(way, 2.0 * std::numbers::pi);
+      }
+      if (std::abs(way) > kApart) {
+        return false;
+      }
+    }
+    return true;
+  });
 }
 
 void PoseSearch::search_all() {
   try_from(seed_);
+  visited_.push_back(descent_.point().q);
   const std::vector<Candidate> candidates = sample();
-  const auto most = static_cast<std::size_t>(planner_.options_.descents);
-  for (std::size_t i = 0; i < candidates.size() && (i < most || rank_.kind != Kind::kOptimum);
-       ++i) {
-    ++best_.restarts;
-    try_from(candidates[i].q);
+  for (const Candidate& candidate : candidates) {
+    if (best_.restarts >= planner_.options_.descents && rank_.kind == Kind::kOptimum) {
+      break;
+    }
+    const JointVector q =
+        Eigen::Map<const Eigen::VectorXd>(&samples_[candidate.first], seed_.size());
+    if (is_apart(q)) {
+      ++best_.restarts;
+      visited_.push_back(q);
+      if (try_from(q)) {
+        visited_.push_back(descent_.point().q);
+      }
+    }
   }
 }
 
@@ -129,12 +152,12 @@ PosePlan PoseSearch::run() {
   } else {
     search_near();
   }
-  if (rank_.kind == Kind::kNone && descent_.nearest_miss().size() > 0) {
-    best_.q = descent_.nearest_miss();
+  if (rank_.kind == Kind::kNone) {
+    best_.q = descent_.nearest_miss().size() > 0 ? descent_.nearest_miss() : best_.q;
+    best_.objective = planner_.objective(best_.q);
   }
   planner_.box_.wind_towards(seed_, best_.q);
   best_.iterations = descent_.iterations();
-  best_.objective = planner_.objective(best_.q);
   verify(best_);
   best_.time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   return best_;

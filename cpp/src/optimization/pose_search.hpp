@@ -28,13 +28,15 @@ class PoseSearch {
   };
 
   struct Candidate {
-    JointVector q;
-    double rank;  ///< log sqrt(kappa/M), with the violation at a price
+    double rank;
+    std::size_t first;  // of its numbers in samples_
+    auto operator<=>(const Candidate&) const = default;
   };
 
   void search_near();
   void search_all();
   std::vector<Candidate> sample();
+  bool is_apart(const JointVector& q) const;
   bool try_from(const JointVector& q);
   void verify(PosePlan& plan) const;
 
@@ -45,6 +47,8 @@ class PoseSearch {
   PoseStarts starts_;
   PosePlan best_;
   Rank rank_;  // of best_.q
+  std::vector<double> samples_;
+  std::vector<JointVector> visited_;  // where descents began and ended
   bool out_of_iterations_ = false;
   std::chrono::steady_clock::time_point start_;
 };

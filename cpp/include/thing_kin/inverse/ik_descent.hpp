@@ -31,4 +31,8 @@ struct IkPoint {
 /// if not, `point` is the closest on the way.
 bool descend(const IkProblem& problem, int most, IkPoint& point, int& iterations) noexcept;
 
+/// The same; where the target is reached, `posture` is that of point.q.
+bool descend(const IkProblem& problem, int most, IkPoint& point, int& iterations,
+             Posture& posture) noexcept;
+
 }  // namespace thing_kin

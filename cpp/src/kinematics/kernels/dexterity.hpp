@@ -22,7 +22,7 @@ struct Twist {
   Three v, w;
 };
 
-inline Six six(const Twist& t) { return Six{t.v.x, t.v.y, t.v.z, t.w.x, t.w.y, t.w.z, 0.0, 0.0}; }
+inline Six six(const Twist& t) { return Six{t.v.x, t.v.y, t.v.z, t.w.x, t.w.y, t.w.z}; }
 
 /// A (3, 3) matrix, rows.
 struct Nine {
@@ -152,7 +152,7 @@ inline void curvature_factors(const DexterityArguments& a, const double* lambda,
   for (int j = 0; j < 6; ++j) {
     factor[j] = Six{};
     for (int i = 0; i < 6; ++i) {
-      factor[j][i] = 0.5 * a.manipulability / (lambda[i] * lambda[j]);
+      factor[j].set(i, 0.5 * a.manipulability / (lambda[i] * lambda[j]));
     }
   }
   const int extremes[] = {most, least};
@@ -161,9 +161,9 @@ inline void curvature_factors(const DexterityArguments& a, const double* lambda,
     for (int i = 0; i < 6; ++i) {
       const double gap = magnitude(lambda[e] - lambda[i]);
       const double floor = DexterityArguments::kLeastGap * lambda[e];
-      factor[e][i] += i == e ? 0.0 : share / (gap > floor ? gap : floor);
+      const double own = (e == most ? -0.5 : 0.5) * share / lambda[e];
+      factor[e].set(i, factor[e][i] + (i == e ? own : share / (gap > floor ? gap : floor)));
     }
-    factor[e][e] += (e == most ? -0.5 : 0.5) * share / lambda[e];
   }
 }
 
@@ -188,10 +188,8 @@ inline void differentiate(const WeightedColumns& c, const Twist* dJ, int count, 
   }
   for (int j = 0; j < 6; ++j) {
     for (int i = 0; i < 6; ++i) {
-      out.rate[j][i] = half[j][i] + half[i][j];
+      out.rate[j].set(i, half[j][i] + half[i][j]);
     }
-    out.rate[j][6] = 0.0;
-    out.rate[j][7] = 0.0;
   }
 }
 
@@ -216,8 +214,8 @@ struct EigenAxes {
             int most, int least) {
     for (int i = 0; i < 6; ++i) {
       const double kappa = i == most ? 0.5 : i == least ? -0.5 : 0.0;
-      share[i] = (kappa * a.condition_number - 0.5 * a.manipulability) / s.lambda[i];
-      rows[i] = Six{s.u[0][i], s.u[1][i], s.u[2][i], s.u[3][i], s.u[4][i], s.u[5][i], 0.0, 0.0};
+      share.set(i, (kappa * a.condition_number - 0.5 * a.manipulability) / s.lambda[i]);
+      rows[i] = Six{s.u[0][i], s.u[1][i], s.u[2][i], s.u[3][i], s.u[4][i], s.u[5][i]};
     }
     for (int m = 0; m < a.count; ++m) {
       B[m] = Six{};
@@ -312,19 +310,16 @@ inline void log_dexterity(const DexterityArguments& a, double* values, double* g
   }
 }
 
-/// S z, where S is the symmetric matrix of which `second` gives the entries k <= l.
-inline void apply(const SecondDerivative& second, const Twist* J, const double* z, int first,
-                  int count, double* out) {
-  for (int k = first; k < count; ++k) {
-    out[k] = 0.0;
-  }
-  for (int l = first; l < count; ++l) {
-    for (int k = first; k < l; ++k) {
-      const double entry = second(J, k, l);
-      out[k] += entry * z[l];
-      out[l] += entry * z[k];
-    }
-    out[l] += second(J, l, l) * z[l];
+/// S_z of z^T S z' = S_z . z' + S_z' . z, where S is the symmetric matrix of which `second` gives
+/// the entries k <= l: those before the diagonal, which are sums on the way out, and half of it.
+inline void half_along(const SecondDerivative& second, const Twist* J, const double* z, int first,
+                       int count, double* out) {
+  Three turn{};
+  Three inner{};
+  for (int m = first; m < count; ++m) {
+    out[m] = dot(turn, second.outer[m]) + dot(inner, J[m].v) + 0.5 * z[m] * second(J, m, m);
+    turn = turn + z[m] * J[m].w;
+    inner = inner + z[m] * second.inner[m];
   }
 }
 
@@ -342,6 +337,7 @@ inline void log_dexterity_along(const DexterityArguments& a, const double* Z, in
   write_gradient(a, c.J, axes.P, gradient);
   Rate rates[kMaxDof];
   double z[kMaxDof][kMaxDof];
+  double half[kMaxDof][kMaxDof];
   for (int k = 0; k < width; ++k) {
     for (int m = a.first; m < a.count; ++m) {
       z[k][m] = Z[a.order[m] + a.stride * k];
@@ -351,17 +347,69 @@ inline void log_dexterity_along(const DexterityArguments& a, const double* Z, in
     differentiate(c, dJ, a.count, axes.rows, axes.B, rates[k]);
     double row[kMaxDof];
     bend(a.count, axes.share, factor, rates, 0, k, row);
-    double bent[kMaxDof];
-    apply(second, c.J, z[k], a.first, a.count, bent);
+    half_along(second, c.J, z[k], a.first, a.count, half[k]);
     for (int l = 0; l <= k; ++l) {
       double value = row[l];
       for (int m = a.first; m < a.count; ++m) {
-        value += 2.0 * bent[m] * z[l][m];
+        value += 2.0 * (half[k][m] * z[l][m] + half[l][m] * z[k][m]);
       }
       hessian[k + width * l] = value;
       hessian[l + width * k] = value;
     }
   }
+}
+
+/// tr S^8 of a symmetric (6, 6) matrix: of the eigenvalues' eighth powers.
+inline double eighth_powers(const Six S[6]) {
+  Six powers[2][6] = {};  // S^2, S^4
+  for (int k = 0; k < 2; ++k) {
+    const Six* const from = k == 0 ? S : powers[0];
+    for (int i = 0; i < 6; ++i) {
+      for (int j = 0; j < 6; ++j) {
+        powers[k][i] += from[i][j] * from[j];
+      }
+    }
+  }
+  Six sum{};
+  for (int i = 0; i < 6; ++i) {
+    sum += powers[1][i] * powers[1][i];
+  }
+  return sum_of(sum);
+}
+
+/// A positive definite (6, 6) matrix becomes its inverse (Gauss and Jordan); its determinant, or 0
+/// if it is not positive definite in rounding.
+inline double invert(Six A[6]) {
+  double determinant = 1.0;
+#pragma GCC unroll 6
+  for (int k = 0; k < 6; ++k) {
+    const Six unit{k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0,
+                   k == 3 ? 1.0 : 0.0, k == 4 ? 1.0 : 0.0, k == 5 ? 1.0 : 0.0};
+    const double pivot = A[k][k];
+    if (!(pivot > 0.0)) {
+      return 0.0;
+    }
+    determinant *= pivot;
+    A[k] = (1.0 / pivot) * (A[k] + (1.0 - pivot) * unit);
+#pragma GCC unroll 6
+    for (int i = 0; i < 6; ++i) {
+      if (i != k) {
+        const double factor = A[i][k];
+        A[i] -= factor * (A[k] + unit);
+      }
+    }
+  }
+  return determinant;
+}
+
+inline double eighth_root(double x) { return __builtin_sqrt(__builtin_sqrt(__builtin_sqrt(x))); }
+
+/// As dexterity_spectrum, with bounds instead of the extreme eigenvalues, by traces of powers.
+inline void dexterity_bounds(const DexterityArguments& a, double* values) {
+  WeightedColumns c(a);
+  values[0] = eighth_root(eighth_powers(c.A));
+  values[2] = invert(c.A);
+  values[1] = values[2] > 0.0 ? 1.0 / eighth_root(eighth_powers(c.A)) : 0.0;
 }
 
 inline void dexterity_spectrum(const DexterityArguments& a, double* values) {

@@ -214,6 +214,10 @@ void spectrum(const DexterityArguments& arguments, double* values) noexcept {
   dexterity_spectrum(arguments, values);
 }
 
+void bounds(const DexterityArguments& arguments, double* values) noexcept {
+  dexterity_bounds(arguments, values);
+}
+
 void arc_tangents(const double* sine, const double* cosine, long count, double* angle) noexcept {
   long i = 0;
   for (; i + kLanes <= count; i += kLanes) {
@@ -235,7 +239,8 @@ void arc_tangents(const double* sine, const double* cosine, long count, double* 
 }  // namespace
 
 extern const Kernels kKernels;
-const Kernels kKernels{place,          pose,      jacobian,        poses,    jacobians,
-                       damped_inverse, dexterity, dexterity_along, spectrum, arc_tangents};
+const Kernels kKernels{place,     pose,           jacobian,    poses,
+                       jacobians, damped_inverse, dexterity,   dexterity_along,
+                       spectrum,  bounds,         arc_tangents};
 
 }  // namespace thing_kin::THING_KIN_LEVEL

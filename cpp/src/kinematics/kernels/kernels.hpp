@@ -70,6 +70,10 @@ struct Kernels {
   /// The values alone.
   void (*dexterity_spectrum)(const DexterityArguments& arguments, double* values) noexcept;
 
+  /// The values alone, with a bound from above and one from below for the largest and the smallest:
+  /// less than the factor 6^(1/8) off.
+  void (*dexterity_bounds)(const DexterityArguments& arguments, double* values) noexcept;
+
   /// Angles of `count` pairs.
   void (*arc_tangents)(const double* sine, const double* cosine, long count,
                        double* angle) noexcept;

@@ -2,8 +2,66 @@
 
 namespace thing_kin::THING_KIN_LEVEL {
 
-/// Six numbers side by side, padded by zeros.
-using Six = double __attribute__((vector_size(64)));
+/// Six numbers side by side, padded by zeros: in as many registers as it takes. (One vector of 64
+/// bytes for all would live in memory where registers are shorter.)
+struct Six {
+  static constexpr int kWide = THING_KIN_LANES < 4 ? THING_KIN_LANES : 4;
+  static constexpr int kParts = (6 + kWide - 1) / kWide;
+  typedef double Part __attribute__((vector_size(8 * kWide)));
+
+  Part part[kParts];
+
+  Six() = default;
+  // Register by register: as a piece of memory it would be copied eight bytes at a time.
+  Six(const Six& other) { copy(other); }
+  Six& operator=(const Six& other) {
+    copy(other);
+    return *this;
+  }
+  ~Six() = default;
+  Six(double a, double b, double c, double d, double e, double f) : part{} {
+    const double numbers[] = {a, b, c, d, e, f};
+    for (int i = 0; i < 6; ++i) {
+      part[i / kWide][i % kWide] = numbers[i];
+    }
+  }
+
+  double operator[](int i) const { return part[i / kWide][i % kWide]; }
+  void set(int i, double x) { part[i / kWide][i % kWide] = x; }
+
+  Six& operator+=(const Six& b) { return *this = *this + b; }
+  Six& operator-=(const Six& b) { return *this = *this - b; }
+  Six& operator*=(double s) { return *this = s * *this; }
+
+  friend Six operator+(const Six& a, const Six& b) {
+    return each([&](int i) { return a.part[i] + b.part[i]; });
+  }
+  friend Six operator-(const Six& a, const Six& b) {
+    return each([&](int i) { return a.part[i] - b.part[i]; });
+  }
+  friend Six operator*(const Six& a, const Six& b) {
+    return each([&](int i) { return a.part[i] * b.part[i]; });
+  }
+  friend Six operator*(double s, const Six& a) {
+    return each([&](int i) { return s * a.part[i]; });
+  }
+
+ private:
+  template <typename Function>
+  [[gnu::always_inline]] static inline Six each(Function function) {
+    Six result;
+    for (int i = 0; i < kParts; ++i) {
+      result.part[i] = function(i);
+    }
+    return result;
+  }
+
+  [[gnu::always_inline]] inline void copy(const Six& other) {
+    for (int i = 0; i < kParts; ++i) {
+      part[i] = other.part[i];
+    }
+  }
+};
 
 inline double sum_of(const Six& a) { return ((a[0] + a[1]) + (a[2] + a[3])) + (a[4] + a[5]); }
 
@@ -22,7 +80,7 @@ struct Spectrum {
     if (kVectors) {
       for (int i = 0; i < 6; ++i) {
         u[i] = Six{};
-        u[i][i] = 1.0;
+        u[i].set(i, 1.0);
       }
     }
     reflect<0>(A);
@@ -46,17 +104,10 @@ struct Spectrum {
   // that columns stay in registers.
   template <int k>
   [[gnu::always_inline]] void reflect(Six A[6]) {
-    constexpr Six kBelow{
-        0.0, k < 1 ? 1.0 : 0.0, k < 2 ? 1.0 : 0.0, k < 3 ? 1.0 : 0.0, k < 4 ? 1.0 : 0.0, 1.0, 0.0,
-        0.0};
-    constexpr Six kBeside{0.0,
-                          k == 0 ? 1.0 : 0.0,
-                          k == 1 ? 1.0 : 0.0,
-                          k == 2 ? 1.0 : 0.0,
-                          k == 3 ? 1.0 : 0.0,
-                          0.0,
-                          0.0,
-                          0.0};
+    const Six kBelow{
+        0.0, k < 1 ? 1.0 : 0.0, k < 2 ? 1.0 : 0.0, k < 3 ? 1.0 : 0.0, k < 4 ? 1.0 : 0.0, 1.0};
+    const Six kBeside{
+        0.0, k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0, k == 3 ? 1.0 : 0.0, 0.0};
     Six v = A[k] * kBelow;
     const double first = v[k + 1];
     const double square = sum_of(v * v);
