@@ -47,8 +47,8 @@ class Functions {
     if (gradient.empty()) {
       return log_dexterity(J_, nullptr);
     }
-    LogDexterity out;
-    if (log_dexterity(robot_, J_, nullptr, out)) {
+    LogDexterity out;  // no second derivative: SLSQP asks for none
+    if (log_dexterity_along(robot_, J_, none_, nullptr, out)) {
       Eigen::Map<Eigen::VectorXd>(gradient.data(), kJoints) = out.gradient;
     }
     return out.value;
@@ -97,6 +97,7 @@ class Functions {
   Vector q_;
   Posture posture_;
   Jacobian J_;
+  const SmallMatrix none_ = SmallMatrix(kJoints, 0);  // directions
 };
 
 double objective(const Vector& q, Vector& gradient, void* data) {
