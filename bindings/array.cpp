@@ -56,7 +56,7 @@ py::object from_numbers(py::handle argument) {
     return {};
   }
   const py::ssize_t count = Py_SIZE(argument.ptr());
-  const Array array = make_array(&count, 1);
+  Array array = make_array(&count, 1);
   auto* const out = reinterpret_cast<double*>(py::detail::array_proxy(array.ptr())->data);
   for (py::ssize_t i = 0; i < count; ++i) {
     PyObject* const number =

@@ -238,5 +238,33 @@ TEST(PoseCurvature, IsTheSecondDerivativeOfThePoseError) {
   }
 }
 
+TEST(PoseCurvature, AlongDirectionsItIsTheWholeOne) {
+  test::Generator rng(14);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  for (int i = 0; i < 40; ++i) {
+    const Chain chain = test::random_chain(rng);
+    const int n = chain.dof();
+    Vector6 weights;
+    JointVector q(n);
+    SmallMatrix Z(n, 1 + i % n);
+    for (double& x : weights) {
+      x = any(rng);
+    }
+    for (double& x : q) {
+      x = any(rng);
+    }
+    for (Eigen::Index k = 0; k < Z.size(); ++k) {
+      Z.data()[k] = any(rng);
+    }
+    const Jacobian J = jacobian_at(chain, q);
+    SmallMatrix H = SmallMatrix::Zero(n, n);
+    add_pose_curvature(chain, J, weights, H);
+    SmallMatrix along = SmallMatrix::Ones(Z.cols(), Z.cols());
+    add_pose_curvature_along(chain, J, weights, Z, along);
+    const SmallMatrix expected = Z.transpose() * H * Z + SmallMatrix::Ones(Z.cols(), Z.cols());
+    EXPECT_LE((along - expected).cwiseAbs().maxCoeff(), 1e-11 * (1.0 + J.squaredNorm() * n));
+  }
+}
+
 }  // namespace
 }  // namespace thing_kin

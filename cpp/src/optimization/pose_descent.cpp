@@ -196,42 +196,51 @@ bool PoseDescent::begin(const JointVector& q) noexcept {
   return bring(q, kMostArrivals, kLargestMiss, *here_) && derive(*here_);
 }
 
+// What the inequalities of the step before add to the Lagrangian: their pull, and their curvature
+// along Z.
+void PoseDescent::add_inequalities(JointVector& pull) noexcept {
+  if (!(mu_.array() > 0.0).any()) {
+    return;
+  }
+  const int first = planner_.options_.base_goal ? 1 : 0;
+  SmallMatrix W = SmallMatrix::Zero(pull.size(), pull.size());
+  JointVector along;
+  for (int i = 0; i < static_cast<int>(mu_.size()); ++i) {
+    if (!(mu_[i] > 0.0)) {
+      continue;
+    }
+    slack_gradient(*here_, i, along);
+    pull -= mu_[i] * along;
+    if (i < first) {
+      const auto& base = *planner_.chain_.base_joints();
+      W(base[0], base[0]) += mu_[i] / planner_.options_.base_radius;
+      W(base[1], base[1]) += mu_[i] / planner_.options_.base_radius;
+    } else {
+      planner_.clearances_.add_hessian(here_->posture, here_->q.data(), i - first, -mu_[i], W);
+    }
+  }
+  // Small: coefficient by coefficient is quicker than by blocks.
+  const SmallMatrix WZ = W.lazyProduct(here_->Z);
+  H_ += here_->Z.transpose().lazyProduct(WZ);
+}
+
 // The way back to the target, which every step takes, and the Lagrangian's gradient and Hessian in
 // the null space of J. The pose's multipliers are those of least squares, given those of the
 // inequalities of the step before.
 void PoseDescent::reduce() noexcept {
-  const SmallMatrix& Z = here_->Z;
   const JointVector& gradient = here_->objective.gradient;
-  SmallMatrix W = SmallMatrix::Zero(gradient.size(), gradient.size());  // but the objective's
+  g_.noalias() = here_->Z.transpose().lazyProduct(gradient);
+  H_ = here_->objective.hessian;
   JointVector pull = gradient - nu_;
-  JointVector along;
-  for (int i = 0; i < static_cast<int>(mu_.size()); ++i) {
-    if (mu_[i] > 0.0) {
-      slack_gradient(*here_, i, along);
-      pull -= mu_[i] * along;
-      const int first = planner_.options_.base_goal ? 1 : 0;
-      if (i < first) {
-        const auto& base = *planner_.chain_.base_joints();
-        W(base[0], base[0]) += mu_[i] / planner_.options_.base_radius;
-        W(base[1], base[1]) += mu_[i] / planner_.options_.base_radius;
-      } else {
-        planner_.clearances_.add_hessian(here_->posture, here_->q.data(), i - first, -mu_[i], W);
-      }
-    }
-  }
+  add_inequalities(pull);
   here_->rows.apply_q_transposed(pull.data());
   lambda_ = pull.head<6>();
   here_->rows.solve_r(lambda_.data());
-  add_pose_curvature(planner_.chain_, here_->J, -lambda_, W);
-  // Small: coefficient by coefficient is quicker than by blocks.
+  add_pose_curvature_along(planner_.chain_, here_->J, -lambda_, here_->Z, H_);
   Vector6 back = here_->miss;
   here_->rows.solve_r_transposed(back.data());
   back_.resize(gradient.size());
   here_->rows.lift(back.data(), back_.data());
-  g_.noalias() = Z.transpose().lazyProduct(gradient);
-  const SmallMatrix WZ = W.lazyProduct(Z);
-  H_.noalias() = Z.transpose().lazyProduct(WZ);
-  H_ += here_->objective.hessian;
 }
 
 // What each joint may do within its sides and the trust region, and what inequalities may come into

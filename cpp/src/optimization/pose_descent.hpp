@@ -68,6 +68,7 @@ class PoseDescent {
   bool misses() const noexcept;
   void measure(PosePoint& point) const noexcept;
   double slack_gradient(const PosePoint& point, int i, JointVector& gradient) const noexcept;
+  void add_inequalities(JointVector& pull) noexcept;
   void reduce() noexcept;
   void collect_forms() noexcept;
   bool minimize() noexcept;

@@ -11,4 +11,8 @@ namespace thing_kin {
 void add_pose_curvature(const Chain& chain, const Jacobian& J, const Vector6& weights,
                         SmallMatrix& H) noexcept;
 
+/// The same along the columns of Z (n, k) only: H (k, k) += Z^T (...) Z.
+void add_pose_curvature_along(const Chain& chain, const Jacobian& J, const Vector6& weights,
+                              const SmallMatrix& Z, SmallMatrix& H) noexcept;
+
 }  // namespace thing_kin
