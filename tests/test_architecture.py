@@ -32,7 +32,7 @@ KDL_SOURCE = CPP / "src" / "model" / "kdl_chain.cpp"
 URDF_SOURCE = CPP / "src" / "model" / "urdf.cpp"
 EXPAT_SOURCE = CPP / "src" / "model" / "urdf_document.cpp"
 CERES_SOURCE = CPP / "src" / "optimization" / "ceres_minimizer.cpp"
-CALIBRATION_SOURCE = CPP / "src" / "estimation" / "calibration.cpp"
+CALIBRATION_SOURCE = CPP / "src" / "estimation" / "calibration_descent.cpp"
 # Targets of their own, so that only their users link what is foreign.
 APART = {
     KDL_SOURCE.name,

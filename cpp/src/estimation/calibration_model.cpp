@@ -1,5 +1,7 @@
 #include "thing_kin/estimation/calibration_model.hpp"
 
+#include <cmath>
+
 #include <Eigen/Geometry>
 
 #include "thing_kin/lie/so3.hpp"
@@ -10,14 +12,18 @@ namespace {
 
 using Part = CalibrationPart;
 
-SE3 joint_motion(JointType type, double reading) {
-  SE3 T;
+// T <- T joint(reading): a turn about z, or a slide along it.
+void move_joint(JointType type, double reading, SE3& T) {
   if (is_rotary(type)) {
-    T.rotation = Eigen::AngleAxisd(reading, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    const double c = std::cos(reading);
+    const double s = std::sin(reading);
+    const Eigen::Vector3d x = T.rotation.col(0);
+    const Eigen::Vector3d y = T.rotation.col(1);
+    T.rotation.col(0) = c * x + s * y;
+    T.rotation.col(1) = c * y - s * x;
   } else if (type == JointType::kPrismatic) {
-    T.translation.z() = reading;
+    T.translation += reading * T.rotation.col(2);
   }
-  return T;
 }
 
 SE3 turn_about_y(double angle) {
@@ -98,6 +104,22 @@ void CalibrationModel::set(const CalibrationState& state) {
   for (std::size_t s = 0; s < links_.size(); ++s) {
     set_row(s);
   }
+  set_readings();
+}
+
+void CalibrationModel::set_readings() {
+  gains_.setOnes(chain_.dof());
+  offsets_.setZero(chain_.dof());
+  compliances_.setZero(chain_.dof());
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const CalibrationParameter& parameter = parameters_[i];
+    if (is_reading(parameter.part)) {
+      Eigen::VectorXd& of = parameter.part == Part::kOffset  ? offsets_
+                            : parameter.part == Part::kScale ? gains_
+                                                             : compliances_;
+      of[parameter.joint] += state_.values[static_cast<Eigen::Index>(i)];
+    }
+  }
 }
 
 void CalibrationModel::set_row(std::size_t s) {
@@ -128,6 +150,9 @@ void CalibrationModel::set_row(std::size_t s) {
 
 SE3 CalibrationModel::pass(Motion& motion, const SE3& frame) {
   const SE3 moved = frame * motion.E;
+  if (!wants_screws_) {
+    return moved;
+  }
   for (const auto& [column, axis] : motion.columns) {
     Screw& screw = screws_[static_cast<std::size_t>(column)];
     screw.is_turn = axis >= 3;
@@ -170,18 +195,9 @@ void CalibrationModel::pass_row(const Link& link, const SE3& joint) {
 }
 
 Eigen::VectorXd CalibrationModel::readings(const VectorView& q, const VectorView& torques) const {
-  Eigen::VectorXd reading = q;
-  for (std::size_t i = 0; i < parameters_.size(); ++i) {
-    const CalibrationParameter& parameter = parameters_[i];
-    const double value = state_.values[static_cast<Eigen::Index>(i)];
-    const int j = parameter.joint;
-    if (parameter.part == Part::kOffset) {
-      reading[j] += value;
-    } else if (parameter.part == Part::kScale) {
-      reading[j] += value * q[j];
-    } else if (parameter.part == Part::kSag) {
-      reading[j] += value * torques[j];
-    }
+  Eigen::VectorXd reading = offsets_ + gains_.cwiseProduct(q);
+  if (torques.size() > 0) {
+    reading += compliances_.cwiseProduct(torques);
   }
   return reading;
 }
@@ -189,6 +205,7 @@ Eigen::VectorXd CalibrationModel::readings(const VectorView& q, const VectorView
 SE3 CalibrationModel::tool(const VectorView& q, const VectorView& torques, TwistColumns* twists,
                            TwistColumns* joint_twists) {
   const Eigen::VectorXd reading = readings(q, torques);
+  wants_screws_ = twists != nullptr || joint_twists != nullptr;
   SE3 T = pass(base_motion_, state_.base);
   for (const Link& link : links_) {
     T = T * link.before;
@@ -196,9 +213,13 @@ SE3 CalibrationModel::tool(const VectorView& q, const VectorView& torques, Twist
       T = pass(origins_[static_cast<std::size_t>(link.origin)], T);
     }
     if (link.type != JointType::kFixed) {
-      pass_joint(link, T, q, torques);
-      T = T * joint_motion(link.type, reading[link.joint]);
-      pass_row(link, T);
+      if (wants_screws_) {
+        pass_joint(link, T, q, torques);
+      }
+      move_joint(link.type, reading[link.joint], T);
+      if (wants_screws_) {
+        pass_row(link, T);
+      }
     }
     T = T * link.after;
   }
@@ -247,7 +268,9 @@ Chain CalibrationModel::calibrated() const {
     if (link.origin >= 0) {
       segment.before = segment.before * origins_[static_cast<std::size_t>(link.origin)].E;
     }
-    segment.after = offset == 0.0 ? link.after : joint_motion(link.type, offset) * link.after;
+    SE3 shifted;
+    move_joint(link.type, offset, shifted);
+    segment.after = offset == 0.0 ? link.after : shifted * link.after;
   }
   return Chain(std::move(description));
 }

@@ -1,9 +1,9 @@
 #include "thing_kin/estimation/calibration_residuals.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include "thing_kin/lie/so3.hpp"
+#include "thing_kin/linalg/spd.hpp"
 
 namespace thing_kin {
 
@@ -53,6 +53,23 @@ Measured hit_error_of(const SE3& tool, const Vector3d& place) {
   m.by_twist.leftCols<3>() = -across;
   m.by_twist.rightCols<3>() = across * skew(way);
   return m;
+}
+
+// L^-1 with L L^T = covariance, which is positive definite.
+Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6> inverse_root(
+    const MatrixView& covariance) {
+  const Index m = covariance.rows();
+  Eigen::MatrixXd L(m, m);
+  cholesky(covariance, L);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6> inverse;
+  inverse.setIdentity(m, m);
+  for (Index i = 0; i < m; ++i) {
+    for (Index k = 0; k < i; ++k) {
+      inverse.row(i) -= L(i, k) * inverse.row(k);
+    }
+    inverse.row(i) /= L(i, i);
+  }
+  return inverse;
 }
 
 }  // namespace
@@ -164,12 +181,12 @@ void CalibrationResiduals::weigh(const CalibrationState& state, const Calibratio
                                 : data_.kind == CalibrationKind::kPoints
                                     ? point_error_of(tool, point_of(point, state), Vector3d::Zero())
                                     : hit_error_of(tool, data_.places.col(static_cast<Index>(at)));
-      const BlockRows by_joint = measured.by_twist * joints;
-      covariance += by_joint * of(data_.joint_covariances, static_cast<std::size_t>(posture)) *
-                    by_joint.transpose();
+      const BlockRows by_joint = measured.by_twist.lazyProduct(joints);
+      const BlockRows spread =
+          by_joint.lazyProduct(of(data_.joint_covariances, static_cast<std::size_t>(posture)));
+      covariance += spread.lazyProduct(by_joint.transpose());
     }
-    const Eigen::LLT<BlockMatrix> root(covariance);
-    whiteners_[b] = root.matrixL().solve(BlockMatrix::Identity(m, m));
+    whiteners_[b] = inverse_root(covariance);
   }
 }
 
@@ -187,9 +204,9 @@ void CalibrationResiduals::evaluate(const CalibrationState& state, Eigen::Vector
       }
       continue;
     }
-    r.segment(row, m) = (W * r.segment(row, m)).eval();
+    r.segment(row, m) = W.lazyProduct(r.segment(row, m)).eval();
     if (J != nullptr) {
-      J->middleRows(row, m) = (W * J->middleRows(row, m)).eval();
+      J->middleRows(row, m) = W.lazyProduct(J->middleRows(row, m)).eval();
     }
   }
 }

@@ -193,6 +193,7 @@ def _result(run: CalibrationRun, estimates_noise: bool, points: ArrayLike | None
         tool=fit.tool,
         points=_points(names, fit.values, points),
         names=names,
+        nominal=problem.nominal,
         values=fit.values,
         std=np.where(told | known, np.sqrt(np.diag(fit.covariance)), np.inf),
         covariance=fit.covariance,

@@ -1,20 +1,19 @@
-"""What a calibration found: numbers with deviations, what stays unknown, a report."""
+"""What the calibration of an arm found: numbers with deviations, and what stays unknown."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from thing_kin.estimation import calibration_report, ur_yaml
-from thing_kin.estimation.calibration_run import CalibrationRun, rms
+from thing_kin.estimation.calibration_base import CalibrationResult, rms
+from thing_kin.estimation.calibration_run import CalibrationRun
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     import thing_kin as tk
 
 __all__ = ["Calibration"]
@@ -23,8 +22,8 @@ Array = NDArray[np.float64]
 EVERYWHERE = 100  # random postures that stand for all
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class Calibration:
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class Calibration(CalibrationResult):
     """The arm as calibrated, and how sure that is.
 
     Returned by `calibrate`. "Nominal" is the chain as it came, with base and tool (or points) as
@@ -42,6 +41,8 @@ class Calibration:
         Measured points on the tool.
     names : tuple of str
         Of all parameters.
+    nominal : (p,)
+        Their values before: a row's own numbers, points as given, 1 for scales, 0 for differences.
     values : (p,)
         Of the parameters, as differences from nominal, m and rad. Base: x, y, z and a rotation
         vector in the root's nominal axes; tool: the same in the last frame's.
@@ -88,41 +89,18 @@ class Calibration:
     True
     """
 
-    status: str
     chain: tk.Chain
     base: Array
     tool: Array
     points: Array
-    names: tuple[str, ...]
-    values: Array
-    std: Array
-    covariance: Array
-    unidentifiable: tuple[str, ...]
-    combinations: tuple[str, ...]
     rank: int
     noise_position: float
     noise_rotation: float
     noise_is_estimated: bool
     variance_factor: float
     dof: float
-    errors: Array
-    distances: Array
-    outliers: tuple[Any, ...]
     iterations: int
-    cross_validated_rms_position: float
-    cross_validated_rms_rotation: float
-    fold_rms: tuple[float, ...]
     _run: CalibrationRun
-
-    @property
-    def success(self) -> bool:
-        """Whether the least squares have converged on data that exceed the parameters."""
-        return self.status == "converged"
-
-    @property
-    def parameters(self) -> dict[str, float]:
-        """Values by name."""
-        return dict(zip(self.names, self.values.tolist(), strict=True))
 
     @property
     def joint_offsets(self) -> Array:
@@ -140,29 +118,9 @@ class Calibration:
         return self._by_joint("sag")
 
     @property
-    def rms_position(self) -> float:
-        """Root mean square distance of measured from predicted places, m."""
-        return rms(self.errors[..., :3])
-
-    @property
-    def rms_rotation(self) -> float:
-        """Root mean square angle, rad; NaN where no rotation was measured."""
-        return rms(self.errors[..., 3:])
-
-    @property
     def errors_nominal(self) -> Array:
         """As `errors`, of the nominal chain with base and tool (or points) that fit it best."""
         return self._errors_nominal
-
-    @property
-    def rms_position_nominal(self) -> float:
-        """As `rms_position`, of the nominal chain, m."""
-        return rms(self.errors_nominal[..., :3])
-
-    @property
-    def rms_rotation_nominal(self) -> float:
-        """As `rms_rotation`, of the nominal chain, rad."""
-        return rms(self.errors_nominal[..., 3:])
 
     @property
     def never_identifiable(self) -> tuple[str, ...]:
@@ -262,52 +220,11 @@ class Calibration:
             candidates = self._run.chain.random(candidates, rng=rng)
         return self._run.most_telling(candidates, count)
 
-    def report(self) -> str:
-        """Return all of it in words.
-
-        Returns
-        -------
-        str
-
-        Examples
-        --------
-        >>> import thing_kin as tk
-        >>> from thing_kin import estimation as est
-        >>> arm = tk.robots.ur5()
-        >>> q = arm.random(30, rng=0)
-        >>> print(est.calibrate(arm, q, arm.fk(q)).report().splitlines()[0])
-        Calibration of ur5: converged, 30 measurements at 30 postures
-        """
-        return calibration_report.report(self)
-
-    def __str__(self) -> str:
-        return self.report()
-
     def __repr__(self) -> str:
         return (
             f"Calibration({self._run.chain.name}, {self.status}, {len(self.names)} parameters, "
             f"rank {self.rank}, rms_position={self.rms_position:.3g})"
         )
-
-    def plot(self) -> Figure:
-        """Draw the residuals before and after, and the parameters with their deviations.
-
-        Returns
-        -------
-        matplotlib Figure
-
-        Examples
-        --------
-        >>> import thing_kin as tk
-        >>> from thing_kin import estimation as est
-        >>> arm = tk.robots.ur5()
-        >>> q = arm.random(30, rng=0)
-        >>> len(est.calibrate(arm, q, arm.fk(q)).plot().axes)
-        3
-        """
-        from thing_kin import viz
-
-        return viz.plot_calibration(self)
 
     def to_urdf(self, name: str | None = None) -> str:
         """Return the calibrated chain as URDF, as `Chain.to_urdf`; base and tool are not in it.
@@ -426,3 +343,24 @@ class Calibration:
         known = self.parameters
         n = self._run.chain.n
         return np.array([known.get(f"{group}[{i}]", 0.0) for i in range(n)])
+
+    def _unit(self, name: str) -> str:
+        group, _, last = name.partition(".")
+        group, _, place = group.rstrip("]").partition("[")
+        if group == "joint_offsets":
+            return "m" if self.chain.joint_types[int(place)] == "prismatic" else "rad"
+        if group == "joint_scales":
+            return "1"
+        if group == "sag":
+            return "rad/(N m)"
+        return "m" if last in ("x", "y", "z", "d", "a") else "rad"
+
+    def _title(self) -> str:
+        measured = int(np.isfinite(self.distances).sum())
+        return (
+            f"Calibration of {self._run.chain.name}: {self.status}, {measured} measurements at "
+            f"{len(self.errors)} postures"
+        )
+
+    def _details(self) -> list[str]:
+        return calibration_report.details_of_arm(self)
