@@ -40,12 +40,16 @@ Batch read_rows(const py::object& argument, const char* name, const std::vector<
 }
 
 // Whether the item was measured: it is not if all of it is NaN. Anything else is refused.
-bool is_seen(const Batch& batch, py::ssize_t i, py::ssize_t size) {
+bool is_seen(const Batch& batch, py::ssize_t i, py::ssize_t size, py::ssize_t per_posture = 1) {
   const double* const item = batch.data + i * size;
   const auto missing = std::count_if(item, item + size, [](double x) { return std::isnan(x); });
   const auto finite = std::count_if(item, item + size, [](double x) { return std::isfinite(x); });
   if (missing != size && finite != size) {
-    throw InvalidArgument("measured", "NaN or inf in measurement " + std::to_string(i),
+    std::string where = "NaN or inf at posture " + std::to_string(i / per_posture);
+    if (per_posture > 1) {
+      where.append(", point ").append(std::to_string(i % per_posture));
+    }
+    throw InvalidArgument("measured", where,
                           "finite numbers, or NaN for all of what was not measured");
   }
   return finite == size;
@@ -68,7 +72,7 @@ void read_places(CalibrationData& data, const py::object& measured) {
   const Batch batch = read_rows(measured, "measured", item, data.postures(), Finite::kNo);
   data.places.setZero(3, batch.count * k);
   for (py::ssize_t i = 0; i < batch.count * k; ++i) {
-    data.seen.push_back(is_seen(batch, i, 3));
+    data.seen.push_back(is_seen(batch, i, 3, k));
     if (data.seen.back()) {
       data.places.col(i) = Eigen::Map<const Eigen::Vector3d>(batch.data + 3 * i);
     }

@@ -44,7 +44,10 @@ APART = {
 APART |= {f"urdf{part}.cpp" for part in ("", "_document", "_excerpt", "_source", "_tree")}
 APART |= {
     f"calibration{part}.cpp"
-    for part in ("", "_analysis", "_model", "_parameters", "_residuals", "_start")
+    for part in (
+        *("", "_analysis", "_descent", "_leverage", "_loss", "_model", "_noise"),
+        *("_parameters", "_problem", "_residuals", "_start"),
+    )
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)

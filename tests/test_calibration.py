@@ -468,7 +468,7 @@ def test_measurements_that_do_not_fit() -> None:
     broken[3, 0, 3] = np.nan
     for q, measured, said in (
         (Q, EXACT[:-1], "measured: got shape"),
-        (Q, broken, "measured: got NaN or inf in measurement 3"),
+        (Q, broken, "measured: got NaN or inf at posture 3"),
         (Q[0], EXACT, "q: got shape"),
         (Q[:0], EXACT[:0], "q: got no posture"),
         (Q[:, :5], EXACT, "q: got shape"),

@@ -35,8 +35,8 @@ from thing_kin._estimation import (
 from thing_kin.estimation import models
 from thing_kin.estimation.calibration import calibrate
 from thing_kin.estimation.calibration_base import CalibratedNumber, CalibrationResult
-from thing_kin.estimation.calibration_report import calibration_report
 from thing_kin.estimation.calibration_result import Calibration
+from thing_kin.estimation.calibration_words import calibration_report
 from thing_kin.estimation.consistency import ConsistencyReport, consistency_report
 from thing_kin.estimation.jacobian_check import JacobianCheck, check_jacobian
 from thing_kin.estimation.mecanum_calibration import MecanumCalibration, calibrate_mecanum

@@ -138,7 +138,7 @@ def calibrate(
     """
     if folds < 0 or folds == 1:
         raise ValueError(f"folds: got {folds}, expected 0 or at least 2")
-    shape = _shape(measured)
+    shape = _shape(measured, q)
     kind = kind or ("points" if shape[-1:] == (3,) else "poses")
     several = kind == "points" and len(shape) == 3 and shape[1] != 1
     names = _groups(parameters)
@@ -171,7 +171,9 @@ def calibrate(
     }
     postures = np.array(q, dtype=float)
     fit = problem.fit(**options, postures=list(range(len(postures))))
-    run = CalibrationRun(chain, postures, problem, fit, options, torques, problem_of)
+    run = CalibrationRun(
+        chain, postures, problem, fit, options, torques, problem_of, tuple(names), _places(measured)
+    )
     result = _result(run, covariance is None, place)
     return result.cross_validated(folds, np.random.default_rng(rng)) if folds else result
 
@@ -234,12 +236,27 @@ def _torques(chain: tk.Chain, q: ArrayLike, loads: Sequence[Load], gravity: Arra
     return total
 
 
-def _shape(measured: ArrayLike) -> tuple[int, ...]:
+def _shape(measured: ArrayLike, q: ArrayLike) -> tuple[int, ...]:
     """() for what is no array: the core says so."""
     try:
-        return np.shape(measured)
+        shape, count = np.shape(measured), len(np.atleast_2d(np.asarray(q, dtype=object)))
     except ValueError:
         return ()
+    fits = shape[1:] in ((4, 4), (3,)) or (len(shape) == 3 and shape[2] == 3)
+    if not fits or shape[0] != count:
+        expected = f"({count}, 4, 4) poses, ({count}, 3) places or ({count}, k, 3) of k points"
+        raise ValueError(
+            f"measured: got shape {shape}, expected one for each of {count} postures: {expected}"
+        )
+    return shape
+
+
+def _places(measured: ArrayLike) -> Array:
+    """Of poses and points alike, (N, k, 3)."""
+    array = np.asarray(measured, dtype=float)
+    if array.shape[1:] == (4, 4):
+        return array[:, None, :3, 3]
+    return array if array.ndim == 3 else array[:, None]
 
 
 def _groups(parameters: str | Iterable[str]) -> list[str]:

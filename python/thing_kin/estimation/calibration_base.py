@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from thing_kin.estimation import calibration_report
+from thing_kin.estimation import calibration_words
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -18,7 +18,8 @@ __all__ = ["CalibratedNumber", "CalibrationResult"]
 Array = NDArray[np.float64]
 
 
-class CalibratedNumber(NamedTuple):
+@dataclass(frozen=True)
+class CalibratedNumber:
     """A row of a calibration's table.
 
     Parameters
@@ -149,6 +150,11 @@ class CalibrationResult:
         return rms(self.errors_nominal[..., self._position_numbers :])
 
     @property
+    def hints(self) -> tuple[str, ...]:
+        """What looks like a mistake in the data, or too few parameters; () where all looks well."""
+        return ()
+
+    @property
     def table(self) -> tuple[CalibratedNumber, ...]:
         """All parameters: name, nominal, value, standard deviation, unit."""
         return tuple(
@@ -188,7 +194,7 @@ class CalibrationResult:
         >>> print(est.calibrate(arm, q, arm.fk(q)).report().splitlines()[0])
         Calibration of ur5: converged, 30 measurements at 30 postures
         """
-        return calibration_report.report(self)
+        return calibration_words.report(self)
 
     def __str__(self) -> str:
         return self.report()

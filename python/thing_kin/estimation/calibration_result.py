@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from thing_kin.estimation import calibration_report, ur_yaml
+from thing_kin.estimation import calibration_hints, calibration_words, ur_yaml
 from thing_kin.estimation.calibration_base import CalibrationResult, rms
 from thing_kin.estimation.calibration_run import CalibrationRun
 
@@ -121,6 +121,15 @@ class Calibration(CalibrationResult):
     def errors_nominal(self) -> Array:
         """As `errors`, of the nominal chain with base and tool (or points) that fit it best."""
         return self._errors_nominal
+
+    @property
+    def hints(self) -> tuple[str, ...]:
+        """What looks like a mistake in the data, or too few parameters; () where all looks well.
+
+        Other units, another order of joints, postures or points; or `links`, where they would
+        explain much of what is left.
+        """
+        return self._hints
 
     @property
     def never_identifiable(self) -> tuple[str, ...]:
@@ -335,6 +344,10 @@ class Calibration(CalibrationResult):
         return self._run.errors_nominal(self.names)
 
     @cached_property
+    def _hints(self) -> tuple[str, ...]:
+        return calibration_hints.hints_of(self)
+
+    @cached_property
     def _never_identifiable(self) -> tuple[str, ...]:
         told = self._run.told_at(self._run.chain.random(EVERYWHERE, rng=0))
         return tuple(n for n, is_told in zip(self.names, told, strict=True) if not is_told)
@@ -363,4 +376,4 @@ class Calibration(CalibrationResult):
         )
 
     def _details(self) -> list[str]:
-        return calibration_report.details_of_arm(self)
+        return calibration_words.details_of_arm(self)

@@ -26,6 +26,8 @@ class CalibrationRun:
     options: dict[str, Any]
     torques: Callable[[ArrayLike], Array | None]
     with_parameters: Callable[[list[str]], Any]  # the same data, other parameters
+    groups: tuple[str, ...]  # of parameters, as asked for
+    places: Array  # as measured, (N, k, 3)
 
     @property
     def everything(self) -> list[int]:

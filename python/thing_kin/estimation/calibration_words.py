@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -53,7 +54,7 @@ def calibration_report(**parts: CalibrationResult) -> str:
     numbers: list[CalibratedNumber] = []
     for name, result in parts.items():
         lines += [f"--- {name}", *_words(result), ""]
-        numbers += [row._replace(name=f"{name}.{row.name}") for row in result.table]
+        numbers += [replace(row, name=f"{name}.{row.name}") for row in result.table]
     return "\n".join(lines + _table(tuple(numbers)))
 
 
@@ -63,7 +64,8 @@ def report(result: CalibrationResult) -> str:
 
 
 def _words(result: CalibrationResult) -> list[str]:
-    return [result._title(), *_residuals(result), *result._details(), *_doubts(result)]
+    hints = [f"HINT: {hint}" for hint in result.hints]
+    return [result._title(), *hints, *_residuals(result), *result._details(), *_doubts(result)]
 
 
 def _residuals(result: CalibrationResult) -> list[str]:
