@@ -168,6 +168,23 @@ Eigen::MatrixXd read_postures(const py::object& argument, const char* name, int 
   return Eigen::Map<const Eigen::MatrixXd>(rows.data, dof, rows.count);
 }
 
+Array read_numbers(const py::object& argument, const std::string& name,
+                   const std::vector<py::ssize_t>& item, bool several, bool is_covariance) {
+  const Batch batch = read(argument, name.c_str(), item, several);
+  check_far(batch, name.c_str());
+  std::vector<py::ssize_t> shape(item);
+  if (!batch.single) {
+    shape.insert(shape.begin(), batch.count);
+  }
+  Array numbers = make_array(shape.data(), static_cast<int>(shape.size()));
+  std::copy_n(batch.data, batch.count * batch.size, numbers.mutable_data());
+  for (py::ssize_t i = 0; is_covariance && i < batch.count; ++i) {
+    check_covariance(Eigen::Map<const RowMajorMatrix>(batch.item(i), item[0], item[1]), item[0],
+                     name);
+  }
+  return numbers;
+}
+
 CalibrationOptions read_calibration_options(const std::string& loss,
                                             const std::optional<double>& loss_scale, double gate,
                                             int max_iterations, const py::object& base,

@@ -24,6 +24,10 @@ SE3 read_one_pose(const py::object& argument, const char* name);
 /// (N, dof) as columns; empty for None.
 Eigen::MatrixXd read_postures(const py::object& argument, const char* name, int dof);
 
+/// Numbers of one shape, or many of it if `several`; `is_covariance`: each checked to be one.
+Array read_numbers(const py::object& argument, const std::string& name,
+                   const std::vector<py::ssize_t>& item, bool several, bool is_covariance);
+
 CalibrationOptions read_calibration_options(const std::string& loss,
                                             const std::optional<double>& loss_scale, double gate,
                                             int max_iterations, const py::object& base,

@@ -1,5 +1,7 @@
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
+#include "calibration_arguments.hpp"
 #include "calibration_bindings.hpp"
 #include "thing_kin/model/chain.hpp"
 
@@ -21,6 +23,9 @@ PYBIND11_MODULE(_calibration, m) {
   m.doc() = "Calibration. Private: use thing_kin.estimation.calibrate.";
   bind_calibration(m);
   bind_calibration_problem(m);
+  m.def("numbers", &read_numbers, py::arg("argument"), py::arg("name"), py::arg("item"),
+        py::arg("several"), py::arg("is_covariance"),
+        "The argument as float64, of shape `item` or, if `several`, (N, *item); else ValueError.");
   m.def(
       "joint_origins",
       [](const Chain& chain) {

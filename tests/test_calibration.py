@@ -453,7 +453,7 @@ def test_it_writes_what_the_driver_reads() -> None:
         ({"priors": {"dh": -1.0}}, "priors: got dh: -1"),
         ({"max_iterations": 0}, "max_iterations: got 0"),
         ({"covariance": np.zeros((6, 6))}, "covariance: got a covariance that is not positive"),
-        ({"base_covariance": np.eye(3)}, "base_covariance: got shape"),
+        ({"base_covariance": np.eye(3)}, "base_covariance: got one for ur10"),
         ({"base": np.ones((4, 4))}, "base: got a (4, 4) matrix that is no rigid"),
     ],
 )

@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import thing_kin._core
 import typing
-__all__: list[str] = ['Fit', 'Problem', 'joint_origins']
+__all__: list[str] = ['Fit', 'Problem', 'joint_origins', 'numbers']
 class Fit:
     """
     Of a Problem.
@@ -110,4 +110,8 @@ class Problem:
 def joint_origins(chain: thing_kin._core.Chain) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
     """
     Of each joint in the one before, (n, 4, 4), and the last frame in the last joint.
+    """
+def numbers(argument: typing.Any, name: str, item: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], several: bool, is_covariance: bool) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    The argument as float64, of shape `item` or, if `several`, (N, *item); else ValueError.
     """
