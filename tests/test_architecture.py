@@ -42,11 +42,11 @@ APART = {
     "smooth_model.cpp",
 }
 APART |= {f"urdf{part}.cpp" for part in ("", "_document", "_excerpt", "_source", "_tree")}
-APART |= {
+APART |= {"rigid_fit.cpp"} | {
     f"calibration{part}.cpp"
     for part in (
         *("", "_analysis", "_descent", "_leverage", "_loss", "_model", "_noise"),
-        *("_parameters", "_problem", "_residuals", "_start"),
+        *("_parameters", "_problem", "_residuals", "_start", "_twists"),
     )
 }
 

@@ -4,10 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Geometry>
-
+#include "rigid_fit.hpp"
 #include "thing_kin/linalg/singular_basis.hpp"
-#include "thing_kin/linalg/svd.hpp"
 
 namespace thing_kin {
 
@@ -20,17 +18,6 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr double kLever = 0.3;  // m: of the points that stand for a pose's axes
-
-// The rotation that is nearest to M.
-Matrix3d nearest_rotation(const Matrix3d& M) {
-  Svd svd;
-  decompose(M, svd);
-  const Matrix3d U = svd.u;
-  const Matrix3d V = svd.v;
-  Vector3d sign = Vector3d::Ones();
-  sign.z() = U.determinant() * V.determinant() < 0.0 ? -1.0 : 1.0;
-  return U * sign.asDiagonal() * V.transpose();
-}
 
 // A place in the world of point `point`, whose frame before the tool is `last`.
 struct Sight {
@@ -78,7 +65,8 @@ class Start {
       const Matrix3d axes = (found.points.rightCols<3>().colwise() - found.points.col(0)) / kLever;
       state.tool = {nearest_rotation(axes), found.points.col(0)};
     } else if (frees_tool_) {
-      const SE3 moved = fitted(points_, found.points);
+      const VectorXd all = VectorXd::Ones(points_.cols());
+      const SE3 moved = fitted_motion(points_, found.points, all);
       state.tool = moved;
     }
     for (int i = 0; i < model.size(); ++i) {
@@ -207,27 +195,8 @@ class Start {
         to.col(k) = sight.last * Vector3d(unknowns.points.col(sight.point));
         weights[k] = sight.weight;
       }
-      unknowns.root = fitted(from, to, weights);
+      unknowns.root = fitted_motion(from, to, weights);
     }
-  }
-
-  // The rigid motion that takes `from` to `to` best.
-  static SE3 fitted(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to,
-                    const VectorXd& weights = {}) {
-    const VectorXd w = weights.size() > 0 ? weights : VectorXd::Ones(from.cols());
-    const double total = w.sum();
-    Vector3d a = Vector3d::Zero();
-    Vector3d b = Vector3d::Zero();
-    for (Index i = 0; i < w.size(); ++i) {
-      a += w[i] / total * from.col(i);
-      b += w[i] / total * to.col(i);
-    }
-    Matrix3d M = Matrix3d::Zero();
-    for (Index i = 0; i < w.size(); ++i) {
-      M += w[i] * (to.col(i) - b) * (from.col(i) - a).transpose();
-    }
-    const Matrix3d R = nearest_rotation(M);
-    return {R, b - R * a};
   }
 
   // Cauchy's weights about the median error, which it returns.
