@@ -166,3 +166,33 @@ def test_measurements_that_do_not_fit() -> None:
         with pytest.raises(ValueError) as error:  # noqa: PT011
             est.calibrate(ARM, q, measured)
         assert str(error.value).startswith(said), error.value
+
+
+def test_values_are_motions_from_nominal() -> None:
+    base, tool = tk.transform(xyz=(0.2, 0.2, 0.6), rpy=(0, 0.1, 1.5)), tk.transform(rpy=(0, 0, 0.3))
+    result = est.calibrate(ARM, Q, EXACT, base=base, tool=tool)
+    motions = []
+    for group in ("base", "tool"):
+        x = np.array(
+            [result.parameters[f"{group}.{axis}"] for axis in ("x", "y", "z", "rx", "ry", "rz")]
+        )
+        E = tk.transform(xyz=x[:3])
+        E[:3, :3] = tk.lie.so3_exp(x[3:])
+        motions.append(E)
+    assert_allclose(base @ motions[0], result.base, atol=1e-12)
+    assert_allclose(motions[1] @ tool, result.tool, atol=1e-12)
+
+
+def test_the_table_has_the_data_sheet_s_numbers() -> None:
+    result = est.calibrate(ARM, Q, EXACT, parameters=("base", "dh", "joint_scales"))
+    rows = {row.name: row for row in result.table}
+    assert rows["dh[1].a"].nominal == pytest.approx(-0.612, abs=2e-3)
+    assert rows["dh[0].alpha"].nominal == pytest.approx(np.pi / 2, abs=1e-9)
+    assert rows["joint_scales[2]"].nominal == 1.0
+    assert rows["base.x"].nominal == 0.0
+    for row, value, std in zip(result.table, result.values, result.std, strict=True):
+        assert row.change == pytest.approx(value, abs=1e-12)
+        assert row.std == std
+    assert [rows[n].unit for n in ("base.x", "base.rx", "dh[1].a", "joint_scales[2]")] == [
+        "m", "rad", "m", "1",
+    ]  # fmt: skip

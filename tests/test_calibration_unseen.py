@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+import thing_kin as tk
 from calibration_cases import ARM, BASE, EXACT, OFFSETS, TOOL, Array, Q, noisy
 from thing_kin import estimation as est
 
@@ -101,3 +102,31 @@ def test_proposed_postures_tell_more() -> None:
 
     random = [volume(ARM.random(6, rng=seed)) for seed in range(8)]
     assert volume(chosen) < min(random) - 1.0
+
+
+def test_combinations_begin_with_a_plus() -> None:
+    for parameters in ("all", ("base", "tool", "origins")):
+        result = est.calibrate(ARM, Q, EXACT, parameters=parameters)
+        lines = [line for line in result.combinations if "," in line]
+        assert len(lines) >= 3
+        assert all(line.split(",")[0].split()[-1].startswith("+") for line in lines)
+
+
+def test_proposals_take_into_account_what_is_proposed() -> None:
+    """The best of all, chosen again and again, would tell less and less."""
+    result = est.calibrate(ARM, Q[:8], EXACT[:8])
+    candidates = ARM.random(40, rng=1)
+    chosen = result.propose_postures(6, candidates)
+    assert len(np.unique(chosen.round(9), axis=0)) >= 4
+
+
+def test_proposals_for_a_mobile_arm() -> None:
+    """Each posture had a covariance of its own; those that are proposed have none."""
+    robot = tk.robots.thing()
+    q = robot.random(12, rng=0)
+    result = est.calibrate(
+        robot, q, robot.fk(q), parameters=("mount", "tool"),
+        base_covariance=np.tile(1e-6 * np.eye(3), (12, 1, 1)),
+    )  # fmt: skip
+    assert result.propose_postures(2, 200).shape == (2, 9)
+    assert not result.degenerate
