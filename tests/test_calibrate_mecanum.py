@@ -181,3 +181,24 @@ def test_misuse(options: dict[str, object], said: str) -> None:
     with pytest.raises(ValueError) as error:  # noqa: PT011 - the text is compared below
         calibrate(simulate(duration=10.0), **options)
     assert str(error.value).startswith(said)
+
+
+def test_two_clocks_leave_no_more() -> None:
+    record = simulate(noise=(1e-4, 1e-4), slip=0.1)
+    plain = calibrate(record)
+    shifted = replace(record, t=record.t + 0.25)
+    ahead = calibrate(shifted, clock_offset_std=0.3, folds=3)
+    assert ahead.parameters["clock_offset"] == pytest.approx(0.25, abs=0.01)
+    assert ahead.rms_position == pytest.approx(plain.rms_position, rel=0.2)
+    assert ahead.cross_validated_rms_position == pytest.approx(plain.rms_position, rel=0.3)
+    assert calibrate(shifted).rms_position > 3 * plain.rms_position
+
+
+def test_gaps_of_the_wheels_are_no_motions() -> None:
+    record = simulate(noise=(1e-4, 1e-4), slip=0.1)
+    kept = np.ones(len(record.t), dtype=bool)
+    kept[1000:1100] = False  # two seconds
+    result = calibrate(replace(record, t=record.t[kept], angles=record.angles[kept]))
+    begun = result.times - record.t[0]
+    assert not ((begun > 19.0) & (begun < 21.0)).any()
+    assert result.rms_position == pytest.approx(calibrate(record).rms_position, rel=0.2)
