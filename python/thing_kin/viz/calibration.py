@@ -22,7 +22,7 @@ def plot_calibration(result: CalibrationResult) -> Figure:
     """Errors of each measurement before and after, their distribution, the parameters.
 
     Outliers are ringed. A parameter's bar is its change from nominal, its whisker twice its
-    standard deviation; what the data do not tell is gray.
+    standard deviation; what the data do not tell is gray, its name too.
 
     Parameters
     ----------
@@ -83,4 +83,6 @@ def _values(axes: Axes, result: CalibrationResult) -> None:
     whiskers = np.where(told, 2 * std, 0.0)
     axes.errorbar(at, values, whiskers, fmt="none", ecolor=BLACK, elinewidth=1.0, capsize=2)
     axes.set_xticks(at, [row.name for row in rows], rotation=60, ha="right", fontsize=7)
+    for label, is_told in zip(axes.get_xticklabels(), told, strict=True):
+        label.set_color(BLACK if is_told else GRAY)
     tidy(axes, title="Changes, with twice their deviations", ylabel="change [mm, mrad, %]")
