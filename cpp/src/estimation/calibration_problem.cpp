@@ -20,9 +20,9 @@ std::vector<int> postures_of(const CalibrationData& data) {
 
 }  // namespace
 
-CalibrationProblem::CalibrationProblem(const Chain& chain, CalibrationData data,
+CalibrationProblem::CalibrationProblem(Chain chain, CalibrationData data,
                                        std::vector<CalibrationParameter> parameters)
-    : chain_(chain), data_(std::move(data)), parameters_(std::move(parameters)) {
+    : chain_(std::move(chain)), data_(std::move(data)), parameters_(std::move(parameters)) {
   if (parameters_.empty()) {
     throw InvalidArgument("parameters", "none that is free", "at least one");
   }

@@ -8,7 +8,7 @@ namespace thing_kin {
 class CalibrationProblem {
  public:
   /// Throws InvalidArgument if there is no parameter.
-  CalibrationProblem(const Chain& chain, CalibrationData data,
+  CalibrationProblem(Chain chain, CalibrationData data,
                      std::vector<CalibrationParameter> parameters);
 
   const Chain& chain() const { return chain_; }
