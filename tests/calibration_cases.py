@@ -84,3 +84,11 @@ def simulated(seed: int, postures: int = 60, outliers: float = 0.0) -> Simulated
     gross = noisy(measured[spoiled], rng, 0.05, 0.05)
     measured[spoiled] = gross
     return SimulatedArm(nominal, truth, arm, base, tool, q, measured, np.sort(spoiled))
+
+
+ARM = tk.robots.ur10()
+BASE = tk.transform(xyz=(0.3, 0.1, 0.7), rpy=(0.01, -0.02, 1.6))
+TOOL = tk.transform(xyz=(0.01, -0.02, 0.12), rpy=(0.0, 0.0, 0.26))
+OFFSETS = np.array([1e-3, -4e-3, 2e-3, 3e-3, -2e-3, 5e-3])
+Q = ARM.random(60, rng=1)
+EXACT = BASE @ ARM.fk(Q + OFFSETS) @ TOOL

@@ -583,11 +583,17 @@ ARM_POSTURES = ARM.random(8, rng=0)
 ARM_POSES = ARM.fk(ARM_POSTURES)
 
 
+REFLECTORS = np.array([[0.05, 0.0, 0.1], [-0.03, 0.06, 0.12], [0.0, -0.05, 0.08]])
+SEEN_REFLECTORS = np.stack([(ARM_POSES @ [*p, 1.0])[:, :3] for p in REFLECTORS], axis=1)
+ROBOT_POSTURES = ROBOT.random(8, rng=0)
+ROBOT_POSES = ROBOT.fk(ROBOT_POSTURES)
+
+
 def calibrated(name: str, **others: Any) -> Callable[[Any], Any]:
-    known = {"q": ARM_POSTURES, "measured": ARM_POSES, "loss": "linear", **others}
+    known = {"chain": ARM, "q": ARM_POSTURES, "measured": ARM_POSES, "loss": "linear", **others}
 
     def call(value: Any) -> np.ndarray:
-        found = est.calibrate(ARM, **{**known, name: value})
+        found = est.calibrate(**{**known, name: value})
         return np.concatenate([found.values, np.diag(found.covariance)])
 
     return call
@@ -599,6 +605,29 @@ CALIBRATION = [
     Argument("calibrate", "covariance", 0.1 * np.eye(6), calibrated("covariance"), moderate=True),
     Argument(
         "calibrate", "q_covariance", 0.1 * np.eye(6), calibrated("q_covariance"), moderate=True
+    ),
+    Argument("calibrate", "base", T, calibrated("base"), moderate=True),
+    Argument("calibrate", "tool", T, calibrated("tool"), moderate=True),
+    Argument(
+        "calibrate",
+        "points",
+        REFLECTORS,
+        calibrated("points", measured=SEEN_REFLECTORS),
+        moderate=True,
+    ),
+    Argument(
+        "calibrate base_covariance",
+        "base_covariance",
+        1e-4 * np.eye(3),
+        calibrated("base_covariance", chain=ROBOT, q=ROBOT_POSTURES, measured=ROBOT_POSES),
+        moderate=True,
+    ),
+    Argument(
+        "calibrate sag",
+        "gravity",
+        np.array([0.0, 0.0, -9.81]),
+        calibrated("gravity", sag=(1, 2)),
+        moderate=True,
     ),
 ]
 STATE = {"x": np.array([0.5, 1.0, 0.2, -0.1]), "P": np.eye(4) + 0.1}
@@ -766,14 +795,14 @@ def reckoned(method: Callable[..., Any], name: str, **others: Any) -> Callable[[
     return lambda value: method(**{**others, name: value}).covariances
 
 
-def identified(name: str) -> Callable[[Any], Any]:
+def identified(name: str, identify: Any = est.identify_mecanum) -> Callable[[Any], Any]:
     known = {
         "t": RECORD_T,
         "wheel_angles": RECORD_ANGLES,
         "t_reference": RECORD_T,
         "poses": RECORD_POSES,
     }
-    return lambda value: est.identify_mecanum(**{**known, name: value}).covariance
+    return lambda value: identify(**{**known, name: value}).covariance
 
 
 def hand_with(name: str) -> Callable[[Any], Any]:
@@ -832,6 +861,17 @@ ODOMETRY = [
     ),
     *(
         Argument("identify_mecanum", name, good, identified(name))
+        for name, good in {
+            "t": RECORD_T,
+            "wheel_angles": RECORD_ANGLES,
+            "t_reference": RECORD_T,
+            "poses": RECORD_POSES,
+            "mount": XI[3:],
+            "mount_std": XI[3:],
+        }.items()
+    ),
+    *(
+        Argument("calibrate_mecanum", name, good, identified(name, est.calibrate_mecanum))
         for name, good in {
             "t": RECORD_T,
             "wheel_angles": RECORD_ANGLES,
@@ -917,6 +957,14 @@ OPTIONAL = {
     "q_covariance",
 }
 
+# The same, of these labels alone.
+OPTIONAL_OF = {
+    ("calibrate", "base"),
+    ("calibrate", "tool"),
+    ("calibrate", "points"),
+    ("calibrate base_covariance", "base_covariance"),
+}
+
 # Labels where such a name is not optional.
 REQUIRED = (
     "Scanner",
@@ -930,6 +978,7 @@ REQUIRED = (
     "terms.BaseDistance",
     "terms.SeedDistance of",
     "identify_mecanum",
+    "calibrate_mecanum",
     "integrate",
     "jacobians",
     "dead_reckon",

@@ -32,7 +32,7 @@ KDL_SOURCE = CPP / "src" / "model" / "kdl_chain.cpp"
 URDF_SOURCE = CPP / "src" / "model" / "urdf.cpp"
 EXPAT_SOURCE = CPP / "src" / "model" / "urdf_document.cpp"
 CERES_SOURCE = CPP / "src" / "optimization" / "ceres_minimizer.cpp"
-CALIBRATION_SOURCE = CPP / "src" / "estimation" / "calibration.cpp"
+CALIBRATION_SOURCE = CPP / "src" / "estimation" / "calibration_descent.cpp"
 # Targets of their own, so that only their users link what is foreign.
 APART = {
     KDL_SOURCE.name,
@@ -42,9 +42,12 @@ APART = {
     "smooth_model.cpp",
 }
 APART |= {f"urdf{part}.cpp" for part in ("", "_document", "_excerpt", "_source", "_tree")}
-APART |= {
+APART |= {"rigid_fit.cpp"} | {
     f"calibration{part}.cpp"
-    for part in ("", "_analysis", "_model", "_parameters", "_residuals", "_start")
+    for part in (
+        *("", "_analysis", "_descent", "_leverage", "_loss", "_model", "_noise"),
+        *("_parameters", "_problem", "_residuals", "_start", "_twists"),
+    )
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)

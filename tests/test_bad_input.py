@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from public_arrays import ARGUMENTS, OPTIONAL, REQUIRED, Argument
+from public_arrays import ARGUMENTS, OPTIONAL, OPTIONAL_OF, REQUIRED, Argument
 
 LARGE = 1e6  # m: far beyond any robot, far from overflow
 dtypes = ["f8", ">f8", "f4", "f2", "g", "i8", "u1", ">i2", "?", "c16", "O", "U3", "S2", "M8[s]"]
@@ -101,7 +101,8 @@ def test_arrays(argument: Argument, data: st.DataObject) -> None:
 @given(value=plain)
 def test_what_is_no_array(argument: Argument, value: Any) -> None:
     required = argument.label.startswith(REQUIRED)  # here it has the name of an option
-    if value is None and argument.name in OPTIONAL and not required:
+    optional = argument.name in OPTIONAL and not required
+    if value is None and (optional or (argument.label, argument.name) in OPTIONAL_OF):
         assert is_right(argument.call(None), argument.infinite)
         return
     assert_answered(argument, value)

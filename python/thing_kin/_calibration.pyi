@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import thing_kin._core
 import typing
-__all__: list[str] = ['Fit', 'Problem', 'joint_origins']
+__all__: list[str] = ['Fit', 'Problem', 'joint_origins', 'numbers']
 class Fit:
     """
     Of a Problem.
@@ -85,7 +85,7 @@ class Problem:
         ...
     def nominal_errors(self, base: typing.Any, tool: typing.Any) -> numpy.typing.NDArray[numpy.float64]:
         ...
-    def sight_of(self, fit: Fit, q: typing.Any, torques: typing.Any) -> numpy.typing.NDArray[numpy.float64]:
+    def told_at(self, fit: Fit, q: typing.Any, torques: typing.Any) -> list[bool]:
         ...
     def unseen_in_words(self, fit: Fit) -> list[str]:
         ...
@@ -99,6 +99,9 @@ class Problem:
     def names(self) -> list[str]:
         ...
     @property
+    def nominal(self) -> numpy.typing.NDArray[numpy.float64]:
+        ...
+    @property
     def per_posture(self) -> int:
         ...
     @property
@@ -107,4 +110,8 @@ class Problem:
 def joint_origins(chain: thing_kin._core.Chain) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
     """
     Of each joint in the one before, (n, 4, 4), and the last frame in the last joint.
+    """
+def numbers(argument: typing.Any, name: str, item: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], several: bool, is_covariance: bool) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    The argument as float64, of shape `item` or, if `several`, (N, *item); else ValueError.
     """

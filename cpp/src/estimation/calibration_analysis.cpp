@@ -4,9 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
-#include <Eigen/SVD>
+#include "thing_kin/linalg/singular_basis.hpp"
 
 namespace thing_kin {
 
@@ -29,11 +27,16 @@ VectorXd deviations_of(std::span<const CalibrationParameter> parameters) {
 
 // How much of each parameter is in a space of motions, each measured by what it does to the data.
 VectorXd shares_in(const MatrixXd& motions, const VectorXd& effect) {
-  if (motions.cols() == 0) {
-    return VectorXd::Zero(effect.size());
+  MatrixXd Q = effect.asDiagonal() * motions;
+  for (Index k = 0; k < Q.cols(); ++k) {
+    for (int pass = 0; pass < 2; ++pass) {  // Gram-Schmidt, twice: orthogonal to rounding
+      Q.col(k).normalize();
+      for (Index other = 0; other < k; ++other) {
+        Q.col(k) -= Q.col(other).dot(Q.col(k)) * Q.col(other);
+      }
+    }
+    Q.col(k).normalize();
   }
-  const Eigen::HouseholderQR<MatrixXd> qr(effect.asDiagonal() * motions);
-  const MatrixXd Q = qr.householderQ() * MatrixXd::Identity(motions.rows(), motions.cols());
   return Q.rowwise().norm();
 }
 
@@ -67,6 +70,20 @@ MatrixXd reduced(const MatrixXd& motions, const VectorXd& effect, const VectorXd
   return scaled;
 }
 
+// Of a matrix that is positive definite, by its Cholesky factor.
+double log_determinant(MatrixXd S) {
+  double sum = 0.0;
+  for (Index j = 0; j < S.cols(); ++j) {
+    const double pivot = S(j, j);
+    sum += std::log(pivot);
+    const VectorXd below = S.col(j).tail(S.rows() - j - 1);
+    for (Index c = j + 1; c < S.cols(); ++c) {
+      S.col(c).tail(S.rows() - c) -= S(c, j) / pivot * below.tail(S.rows() - c);
+    }
+  }
+  return sum;
+}
+
 }  // namespace
 
 CalibrationSight calibration_sight(const RowMajorMatrix& J,
@@ -76,21 +93,17 @@ CalibrationSight calibration_sight(const RowMajorMatrix& J,
   const Index p = deviations.size();
   CalibrationSight sight;
   sight.is_told.assign(parameters.size(), false);
-  const Index rows = std::max(J.rows(), p);
-  MatrixXd A = MatrixXd::Zero(rows, p);
-  A.topRows(J.rows()) = J * deviations.asDiagonal();
+  const MatrixXd A = J * deviations.asDiagonal();
   const VectorXd norms = A.colwise().norm();
-  const Eigen::HouseholderQR<MatrixXd> qr(A);
-  const MatrixXd R = qr.matrixQR().topRows(p).triangularView<Eigen::Upper>();
-  const Eigen::BDCSVD<MatrixXd> svd(R, Eigen::ComputeFullV);
-  sight.singular_values = svd.singularValues();
+  const SingularBasis basis = singular_basis(A);
+  sight.singular_values = basis.sigma;
   const VectorXd information = sight.singular_values.array().square() / inflation;
   sight.rank = static_cast<int>((information.array() > kTold).count());
   const Index seen = (information.array() > kNothing).count();
-  const MatrixXd& V = svd.matrixV();
-  const VectorXd left = (information.array() + 1.0).inverse();
-  sight.covariance =
-      deviations.asDiagonal() * (V * left.asDiagonal() * V.transpose()) * deviations.asDiagonal();
+  const MatrixXd& V = basis.v;
+  const VectorXd left = (information.array() + 1.0).sqrt().inverse();
+  const MatrixXd root = deviations.asDiagonal() * V * left.asDiagonal();
+  sight.covariance = root.lazyProduct(root.transpose());
   const double largest = norms.maxCoeff() > 0.0 ? norms.maxCoeff() : 1.0;
   const VectorXd effect = (norms.array() > 1e-12 * largest).select(norms, largest);
   const VectorXd none = shares_in(V.rightCols(p - seen), effect);
@@ -141,39 +154,23 @@ std::vector<int> most_telling(const RowMajorMatrix& J, int rows,
     double most = -1.0;
     int best = 0;
     for (int c = 0; c < candidates; ++c) {
-      const auto block = A.middleRows(static_cast<Index>(c) * rows, rows);
-      const MatrixXd S = MatrixXd::Identity(rows, rows) + block * P * block.transpose();
-      const Eigen::LLT<MatrixXd> root(S);
-      const double gain = root.matrixLLT().diagonal().array().log().sum();
+      const MatrixXd block = A.middleRows(static_cast<Index>(c) * rows, rows);
+      const MatrixXd seen = block * P;
+      const double gain =
+          log_determinant(MatrixXd::Identity(rows, rows) + seen.lazyProduct(block.transpose()));
       if (gain > most) {
         most = gain;
         best = c;
       }
     }
     chosen.push_back(best);
-    const auto block = A.middleRows(static_cast<Index>(best) * rows, rows);
-    const MatrixXd S = MatrixXd::Identity(rows, rows) + block * P * block.transpose();
-    const MatrixXd PB = P * block.transpose();
-    P -= PB * Eigen::LLT<MatrixXd>(S).solve(PB.transpose());
+    for (int row = best * rows; row < (best + 1) * rows; ++row) {  // one number after the other
+      const VectorXd a = A.row(row).transpose();
+      const VectorXd Pa = P * a;
+      P -= Pa * (Pa / (1.0 + a.dot(Pa))).transpose();
+    }
   }
   return chosen;
-}
-
-RowMajorMatrix leverages(const RowMajorMatrix& J, std::span<const CalibrationParameter> parameters,
-                         int m) {
-  const VectorXd deviations = deviations_of(parameters);
-  MatrixXd N = J.transpose() * J;
-  N.diagonal() += deviations.array().square().inverse().matrix();
-  const VectorXd scale = N.diagonal().cwiseSqrt().cwiseInverse();
-  const MatrixXd scaled = scale.asDiagonal() * N * scale.asDiagonal();
-  const Eigen::LDLT<MatrixXd> root(scaled);
-  const RowMajorMatrix B = J * scale.asDiagonal();
-  const MatrixXd X = root.solve(B.transpose());
-  RowMajorMatrix H(J.rows(), m);
-  for (Index row = 0; row < J.rows(); row += m) {
-    H.middleRows(row, m).noalias() = B.middleRows(row, m) * X.middleCols(row, m);
-  }
-  return H;
 }
 
 }  // namespace thing_kin

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include "calibration_reading.hpp"
 #include "thing_kin/lie/so3.hpp"
 
 namespace thing_kin {
@@ -9,16 +10,6 @@ namespace thing_kin {
 namespace {
 
 using Part = CalibrationPart;
-
-SE3 joint_motion(JointType type, double reading) {
-  SE3 T;
-  if (is_rotary(type)) {
-    T.rotation = Eigen::AngleAxisd(reading, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  } else if (type == JointType::kPrismatic) {
-    T.translation.z() = reading;
-  }
-  return T;
-}
 
 SE3 turn_about_y(double angle) {
   return {Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()).toRotationMatrix(),
@@ -28,10 +19,6 @@ SE3 turn_about_y(double angle) {
 bool is_row(Part part) {
   return part == Part::kD || part == Part::kTheta || part == Part::kA || part == Part::kAlpha ||
          part == Part::kBeta;
-}
-
-bool is_reading(Part part) {
-  return part == Part::kOffset || part == Part::kScale || part == Part::kSag;
 }
 
 }  // namespace
@@ -98,6 +85,22 @@ void CalibrationModel::set(const CalibrationState& state) {
   for (std::size_t s = 0; s < links_.size(); ++s) {
     set_row(s);
   }
+  set_readings();
+}
+
+void CalibrationModel::set_readings() {
+  gains_.setOnes(chain_.dof());
+  offsets_.setZero(chain_.dof());
+  compliances_.setZero(chain_.dof());
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const CalibrationParameter& parameter = parameters_[i];
+    if (is_reading(parameter.part)) {
+      Eigen::VectorXd& of = parameter.part == Part::kOffset  ? offsets_
+                            : parameter.part == Part::kScale ? gains_
+                                                             : compliances_;
+      of[parameter.joint] += state_.values[static_cast<Eigen::Index>(i)];
+    }
+  }
 }
 
 void CalibrationModel::set_row(std::size_t s) {
@@ -126,112 +129,12 @@ void CalibrationModel::set_row(std::size_t s) {
   }
 }
 
-SE3 CalibrationModel::pass(Motion& motion, const SE3& frame) {
-  const SE3 moved = frame * motion.E;
-  for (const auto& [column, axis] : motion.columns) {
-    Screw& screw = screws_[static_cast<std::size_t>(column)];
-    screw.is_turn = axis >= 3;
-    screw.axis = screw.is_turn ? frame.rotation * motion.turns.col(axis - 3)
-                               : Eigen::Vector3d(frame.rotation.col(axis));
-    screw.point = moved.translation;
-  }
-  return moved;
-}
-
-void CalibrationModel::pass_joint(const Link& link, const SE3& frame, const VectorView& q,
-                                  const VectorView& torques) {
-  Screw screw{frame.rotation.col(2), frame.translation, is_rotary(link.type), 1.0};
-  for (const int i : link.own) {
-    const auto k = static_cast<std::size_t>(i);
-    const Part part = parameters_[k].part;
-    if (is_reading(part)) {
-      screw.factor = part == Part::kScale ? q[link.joint]
-                     : part == Part::kSag ? torques[link.joint]
-                                          : 1.0;
-      screws_[k] = screw;
-    } else if (part == Part::kTheta || part == Part::kD) {
-      screws_[k] = {screw.axis, screw.point, part == Part::kTheta, 1.0};
-    }
-  }
-  screw.factor = 1.0;
-  joint_screws_[static_cast<std::size_t>(link.joint)] = screw;
-}
-
-void CalibrationModel::pass_row(const Link& link, const SE3& joint) {
-  const SE3 end = joint * link.row_after;
-  for (const int i : link.own) {
-    const auto k = static_cast<std::size_t>(i);
-    const Part part = parameters_[k].part;
-    if (part == Part::kA || part == Part::kAlpha || part == Part::kBeta) {
-      const Eigen::Vector3d axis = end.rotation.col(part == Part::kBeta ? 1 : 0);
-      screws_[k] = {axis, end.translation, part != Part::kA, 1.0};
-    }
-  }
-}
-
 Eigen::VectorXd CalibrationModel::readings(const VectorView& q, const VectorView& torques) const {
-  Eigen::VectorXd reading = q;
-  for (std::size_t i = 0; i < parameters_.size(); ++i) {
-    const CalibrationParameter& parameter = parameters_[i];
-    const double value = state_.values[static_cast<Eigen::Index>(i)];
-    const int j = parameter.joint;
-    if (parameter.part == Part::kOffset) {
-      reading[j] += value;
-    } else if (parameter.part == Part::kScale) {
-      reading[j] += value * q[j];
-    } else if (parameter.part == Part::kSag) {
-      reading[j] += value * torques[j];
-    }
+  Eigen::VectorXd reading = offsets_ + gains_.cwiseProduct(q);
+  if (torques.size() > 0) {
+    reading += compliances_.cwiseProduct(torques);
   }
   return reading;
-}
-
-SE3 CalibrationModel::tool(const VectorView& q, const VectorView& torques, TwistColumns* twists,
-                           TwistColumns* joint_twists) {
-  const Eigen::VectorXd reading = readings(q, torques);
-  SE3 T = pass(base_motion_, state_.base);
-  for (const Link& link : links_) {
-    T = T * link.before;
-    if (link.origin >= 0) {
-      T = pass(origins_[static_cast<std::size_t>(link.origin)], T);
-    }
-    if (link.type != JointType::kFixed) {
-      pass_joint(link, T, q, torques);
-      T = T * joint_motion(link.type, reading[link.joint]);
-      pass_row(link, T);
-    }
-    T = T * link.after;
-  }
-  T = pass(tool_motion_, T) * state_.tool;
-  if (twists != nullptr) {
-    write_twists(T.translation, *twists);
-  }
-  if (joint_twists != nullptr) {
-    for (std::size_t j = 0; j < joint_screws_.size(); ++j) {
-      const Screw& screw = joint_screws_[j];
-      auto column = joint_twists->col(static_cast<Eigen::Index>(j));
-      column.head<3>() =
-          screw.is_turn ? screw.axis.cross(T.translation - screw.point).eval() : screw.axis;
-      column.tail<3>() = screw.is_turn ? screw.axis : Eigen::Vector3d::Zero().eval();
-    }
-  }
-  return T;
-}
-
-void CalibrationModel::write_twists(const Eigen::Vector3d& tool, TwistColumns& twists) const {
-  for (std::size_t i = 0; i < screws_.size(); ++i) {
-    auto column = twists.col(static_cast<Eigen::Index>(i));
-    const Screw& screw = screws_[i];
-    if (parameters_[i].part == Part::kPoint) {
-      column.setZero();
-    } else if (screw.is_turn) {
-      column.head<3>() = screw.factor * screw.axis.cross(tool - screw.point);
-      column.tail<3>() = screw.factor * screw.axis;
-    } else {
-      column.head<3>() = screw.factor * screw.axis;
-      column.tail<3>().setZero();
-    }
-  }
 }
 
 Chain CalibrationModel::calibrated() const {
@@ -247,7 +150,9 @@ Chain CalibrationModel::calibrated() const {
     if (link.origin >= 0) {
       segment.before = segment.before * origins_[static_cast<std::size_t>(link.origin)].E;
     }
-    segment.after = offset == 0.0 ? link.after : joint_motion(link.type, offset) * link.after;
+    SE3 shifted;
+    move_joint(link.type, offset, shifted);
+    segment.after = offset == 0.0 ? link.after : shifted * link.after;
   }
   return Chain(std::move(description));
 }

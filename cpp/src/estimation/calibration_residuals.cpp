@@ -1,9 +1,9 @@
 #include "thing_kin/estimation/calibration_residuals.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include "thing_kin/lie/so3.hpp"
+#include "thing_kin/linalg/spd.hpp"
 
 namespace thing_kin {
 
@@ -14,19 +14,15 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 // Error and its derivative by the tool's twist [linear; angular], both in world axes.
+// Rows beyond the measurement's are zero.
 struct Measured {
-  explicit Measured(Index rows) {
-    error.setZero(rows);
-    by_twist.setZero(rows, 6);
-  }
-
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1> error;
-  Eigen::Matrix<double, Eigen::Dynamic, 6, 0, 6, 6> by_twist;
+  Vector6 error = Vector6::Zero();
+  Matrix6 by_twist = Matrix6::Zero();
 };
 
 // error = [p_measured - p; log(R_measured R^T)]; exp(e) exp(-w) = exp(e - J_r^-1(e) w).
 Measured pose_error_of(const SE3& tool, const SE3& measured) {
-  Measured m(6);
+  Measured m;
   const Vector3d turn = so3_log(measured.rotation * tool.rotation.transpose());
   m.error.head<3>() = measured.translation - tool.translation;
   m.error.tail<3>() = turn;
@@ -36,23 +32,48 @@ Measured pose_error_of(const SE3& tool, const SE3& measured) {
 }
 
 Measured point_error_of(const SE3& tool, const Vector3d& point, const Vector3d& place) {
-  Measured m(3);
+  Measured m;
   const Vector3d arm = tool.rotation * point;
-  m.error = place - tool.translation - arm;
-  m.by_twist.leftCols<3>() = -Matrix3d::Identity();
-  m.by_twist.rightCols<3>() = skew(arm);
+  m.error.head<3>() = place - tool.translation - arm;
+  m.by_twist.topLeftCorner<3, 3>() = -Matrix3d::Identity();
+  m.by_twist.topRightCorner<3, 3>() = skew(arm);
   return m;
 }
 
 // [X21]: a laser along the tool's z axis; the part of the way to the place that is across it.
 Measured hit_error_of(const SE3& tool, const Vector3d& place) {
-  Measured m(2);
+  Measured m;
   const Vector3d way = place - tool.translation;
   const Eigen::Matrix<double, 2, 3> across = tool.rotation.leftCols<2>().transpose();
-  m.error = across * way;
-  m.by_twist.leftCols<3>() = -across;
-  m.by_twist.rightCols<3>() = across * skew(way);
+  m.error.head<2>() = across * way;
+  m.by_twist.topLeftCorner<2, 3>() = -across;
+  m.by_twist.topRightCorner<2, 3>() = across * skew(way);
   return m;
+}
+
+// L^-1 with L L^T = the first m rows and columns of the covariance, which are positive definite.
+Matrix6 inverse_root(const Matrix6& covariance, Index m) {
+  Matrix6 L = covariance;
+  cholesky(MatrixView(covariance.topLeftCorner(m, m)), MatrixSpan(L.topLeftCorner(m, m)));
+  Matrix6 inverse = Matrix6::Identity();
+  for (Index i = 0; i < m; ++i) {
+    for (Index k = 0; k < i; ++k) {
+      inverse.row(i) -= L(i, k) * inverse.row(k);
+    }
+    inverse.row(i) /= L(i, i);
+  }
+  return inverse;
+}
+
+// Measurement `at`; `point`: on the tool.
+Measured measured_at(const CalibrationData& data, std::size_t at, const SE3& tool,
+                     const Vector3d& point) {
+  if (data.kind == CalibrationKind::kPoses) {
+    return pose_error_of(tool, data.poses[at]);
+  }
+  const Vector3d place = data.places.col(static_cast<Index>(at));
+  return data.kind == CalibrationKind::kPoints ? point_error_of(tool, point, place)
+                                               : hit_error_of(tool, place);
 }
 
 }  // namespace
@@ -108,18 +129,14 @@ void CalibrationResiduals::errors(const CalibrationState& state, Eigen::VectorXd
                          D == nullptr ? nullptr : &twists, nullptr);
       last = posture;
     }
-    const Vector3d place = data_.kind == CalibrationKind::kPoses
-                               ? Vector3d::Zero().eval()
-                               : data_.places.col(static_cast<Index>(at)).eval();
-    const Measured measured = data_.kind == CalibrationKind::kPoses
-                                  ? pose_error_of(tool, data_.poses[at])
-                              : data_.kind == CalibrationKind::kPoints
-                                  ? point_error_of(tool, point_of(point, state), place)
-                                  : hit_error_of(tool, place);
+    const Measured measured = measured_at(data_, at, tool, point_of(point, state));
     const Index row = static_cast<Index>(b) * m;
-    e.segment(row, m) = measured.error;
+    e.segment(row, m) = measured.error.head(m);
     if (D != nullptr) {
-      D->middleRows(row, m) = measured.by_twist.lazyProduct(twists);
+      for (Index i = 0; i < size(); ++i) {
+        const Vector6 column = measured.by_twist * twists.col(i);
+        D->col(i).segment(row, m) = column.head(m);
+      }
       for (Index i = size() - 1; i >= 0; --i) {
         const CalibrationParameter& parameter = model_.parameters()[static_cast<std::size_t>(i)];
         if (parameter.part != CalibrationPart::kPoint) {
@@ -146,30 +163,27 @@ void CalibrationResiduals::weigh(const CalibrationState& state, const Calibratio
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const auto [posture, point] = blocks_[b];
     const auto at = static_cast<std::size_t>(posture * data_.per_posture() + point);
-    BlockMatrix covariance = BlockMatrix::Zero(m, m);
+    Matrix6 covariance = Matrix6::Zero();
     if (data_.covariances.empty()) {
       covariance.diagonal().head(k).setConstant(noise.position * noise.position);
-      covariance.diagonal().tail(m - k).setConstant(noise.rotation * noise.rotation);
-      if (data_.joint_covariances.empty()) {
-        whiteners_[b] = covariance.diagonal().cwiseSqrt().cwiseInverse().asDiagonal();
+      covariance.diagonal().segment(k, m - k).setConstant(noise.rotation * noise.rotation);
+      if (is_diagonal_) {
+        whiteners_[b].setIdentity();
+        whiteners_[b].diagonal().head(m) = covariance.diagonal().head(m).cwiseSqrt().cwiseInverse();
         continue;
       }
     } else {
-      covariance = of(data_.covariances, at);
+      covariance.topLeftCorner(m, m) = of(data_.covariances, at);
     }
     if (!data_.joint_covariances.empty()) {
       const SE3 tool = model_.tool(data_.q.col(posture), torques_at(posture), nullptr, &joints);
-      const Measured measured = data_.kind == CalibrationKind::kPoses
-                                    ? pose_error_of(tool, data_.poses[at])
-                                : data_.kind == CalibrationKind::kPoints
-                                    ? point_error_of(tool, point_of(point, state), Vector3d::Zero())
-                                    : hit_error_of(tool, data_.places.col(static_cast<Index>(at)));
-      const BlockRows by_joint = measured.by_twist * joints;
-      covariance += by_joint * of(data_.joint_covariances, static_cast<std::size_t>(posture)) *
-                    by_joint.transpose();
+      const Matrix6 by_twist = measured_at(data_, at, tool, point_of(point, state)).by_twist;
+      const TwistColumns by_joint = by_twist.lazyProduct(joints);
+      const TwistColumns spread =
+          by_joint.lazyProduct(of(data_.joint_covariances, static_cast<std::size_t>(posture)));
+      covariance += spread.lazyProduct(by_joint.transpose());
     }
-    const Eigen::LLT<BlockMatrix> root(covariance);
-    whiteners_[b] = root.matrixL().solve(BlockMatrix::Identity(m, m));
+    whiteners_[b] = inverse_root(covariance, m);
   }
 }
 
@@ -178,18 +192,19 @@ void CalibrationResiduals::evaluate(const CalibrationState& state, Eigen::Vector
   errors(state, r, J);
   const Index m = data_.rows();
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    const Index row = static_cast<Index>(b) * m;
-    const BlockMatrix& W = whiteners_[b];
-    if (is_diagonal_) {
-      r.segment(row, m).array() *= W.diagonal().array();
-      for (Index i = 0; J != nullptr && i < m; ++i) {
-        J->row(row + i) *= W(i, i);
+    const Index first = static_cast<Index>(b) * m;
+    const Matrix6& W = whiteners_[b];  // lower triangular: rows from the last on, in place
+    for (Index i = m - 1; i >= 0; --i) {
+      r[first + i] *= W(i, i);
+      for (Index k = 0; k < i && !is_diagonal_; ++k) {
+        r[first + i] += W(i, k) * r[first + k];
       }
-      continue;
-    }
-    r.segment(row, m) = (W * r.segment(row, m)).eval();
-    if (J != nullptr) {
-      J->middleRows(row, m) = (W * J->middleRows(row, m)).eval();
+      if (J != nullptr) {
+        J->row(first + i) *= W(i, i);
+        for (Index k = 0; k < i && !is_diagonal_; ++k) {
+          J->row(first + i) += W(i, k) * J->row(first + k);
+        }
+      }
     }
   }
 }

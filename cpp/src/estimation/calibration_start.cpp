@@ -4,10 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
-#include <Eigen/SVD>
+#include "rigid_fit.hpp"
+#include "thing_kin/linalg/singular_basis.hpp"
 
 namespace thing_kin {
 
@@ -20,14 +18,6 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr double kLever = 0.3;  // m: of the points that stand for a pose's axes
-
-// The rotation that is nearest to M.
-Matrix3d nearest_rotation(const Matrix3d& M) {
-  const Eigen::JacobiSVD<Matrix3d> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Matrix3d sign = Matrix3d::Identity();
-  sign(2, 2) = svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0 ? -1.0 : 1.0;
-  return svd.matrixU() * sign * svd.matrixV().transpose();
-}
 
 // A place in the world of point `point`, whose frame before the tool is `last`.
 struct Sight {
@@ -61,9 +51,13 @@ class Start {
 
   CalibrationState find(const CalibrationModel& model) {
     Unknowns found = known();
+    double typical = 0.0;
     for (int i = 0; i < 4; ++i) {
       found = solve(found);
-      reweigh(found);
+      const double before = std::exchange(typical, reweigh(found));
+      if (std::abs(typical - before) < 0.02 * before) {
+        break;
+      }
     }
     CalibrationState state = nominal_;
     state.base = frees_base_ ? found.root.inverse() : state.base;
@@ -71,7 +65,8 @@ class Start {
       const Matrix3d axes = (found.points.rightCols<3>().colwise() - found.points.col(0)) / kLever;
       state.tool = {nearest_rotation(axes), found.points.col(0)};
     } else if (frees_tool_) {
-      const SE3 moved = fitted(points_, found.points);
+      const VectorXd all = VectorXd::Ones(points_.cols());
+      const SE3 moved = fitted_motion(points_, found.points, all);
       state.tool = moved;
     }
     for (int i = 0; i < model.size(); ++i) {
@@ -163,14 +158,15 @@ class Start {
     return after;
   }
 
-  // A x = b of a symmetric A that may have lost rank.
+  // A x = b of a symmetric A, not negative, that may have lost rank.
   static VectorXd least_norm(const MatrixXd& A, const VectorXd& b) {
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(A);
-    const double least = 1e-10 * eigen.eigenvalues().cwiseAbs().maxCoeff();
-    const VectorXd inverse =
-        (eigen.eigenvalues().array() > least)
-            .select(eigen.eigenvalues().cwiseInverse(), VectorXd::Zero(b.size()));
-    return eigen.eigenvectors() * (inverse.asDiagonal() * (eigen.eigenvectors().transpose() * b));
+    const SingularBasis basis = singular_basis(A);
+    const double least = 1e-10 * basis.sigma[0];
+    VectorXd x = VectorXd::Zero(b.size());
+    for (Index i = 0; i < b.size() && basis.sigma[i] > least; ++i) {
+      x += basis.v.col(i).dot(b) / basis.sigma[i] * basis.v.col(i);
+    }
+    return x;
   }
 
   // Once M is a rotation: points and base in turn, each the best for the other.
@@ -199,23 +195,12 @@ class Start {
         to.col(k) = sight.last * Vector3d(unknowns.points.col(sight.point));
         weights[k] = sight.weight;
       }
-      unknowns.root = fitted(from, to, weights);
+      unknowns.root = fitted_motion(from, to, weights);
     }
   }
 
-  // The rigid motion that takes `from` to `to` best.
-  static SE3 fitted(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to,
-                    const VectorXd& weights = {}) {
-    const VectorXd w = weights.size() > 0 ? weights : VectorXd::Ones(from.cols());
-    const Vector3d a = from * w / w.sum();
-    const Vector3d b = to * w / w.sum();
-    const Matrix3d M = (to.colwise() - b) * w.asDiagonal() * (from.colwise() - a).transpose();
-    const Matrix3d R = nearest_rotation(M);
-    return {R, b - R * a};
-  }
-
-  // Cauchy's weights about the median error.
-  void reweigh(const Unknowns& unknowns) {
+  // Cauchy's weights about the median error, which it returns.
+  double reweigh(const Unknowns& unknowns) {
     std::vector<double> distances;
     distances.reserve(sights_.size());
     for (const Sight& sight : sights_) {
@@ -225,12 +210,13 @@ class Start {
     }
     std::vector<double> sorted = distances;
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
+    std::ranges::nth_element(sorted, middle);
     const double width = std::max(2.0 * *middle, 1e-9);
     for (std::size_t i = 0; i < sights_.size(); ++i) {
       const double relative = distances[i] / width;
       sights_[i].weight = 1.0 / (1.0 + relative * relative);
     }
+    return *middle;
   }
 
   CalibrationState nominal_;

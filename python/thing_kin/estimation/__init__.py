@@ -34,9 +34,12 @@ from thing_kin._estimation import (
 )
 from thing_kin.estimation import models
 from thing_kin.estimation.calibration import calibrate
+from thing_kin.estimation.calibration_base import CalibratedNumber, CalibrationResult
 from thing_kin.estimation.calibration_result import Calibration
+from thing_kin.estimation.calibration_words import calibration_report
 from thing_kin.estimation.consistency import ConsistencyReport, consistency_report
 from thing_kin.estimation.jacobian_check import JacobianCheck, check_jacobian
+from thing_kin.estimation.mecanum_calibration import MecanumCalibration, calibrate_mecanum
 from thing_kin.estimation.robot_localization import (
     RobotLocalization,
     RosSource,
@@ -54,7 +57,9 @@ from thing_kin.estimation.simulation import Simulation, simulate
 __all__ = [
     "BaseEstimate",
     "BaseLocalizer",
+    "CalibratedNumber",
     "Calibration",
+    "CalibrationResult",
     "ConsistencyReport",
     "DeadReckoning",
     "DifferentialDriveOdometry",
@@ -67,6 +72,7 @@ __all__ = [
     "LocalizationExperiment",
     "LocalizationRun",
     "MeasurementModel",
+    "MecanumCalibration",
     "MecanumIdentification",
     "MecanumOdometry",
     "MotionModel",
@@ -78,6 +84,8 @@ __all__ = [
     "UnscentedKalmanFilter",
     "angles_from_ticks",
     "calibrate",
+    "calibrate_mecanum",
+    "calibration_report",
     "check_jacobian",
     "chi_square_quantile",
     "consistency_report",

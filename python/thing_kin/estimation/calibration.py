@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from thing_kin.estimation import calibration_arguments as arguments
 from thing_kin.estimation.calibration_result import Calibration
 from thing_kin.estimation.calibration_run import CalibrationRun
 
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
 
 __all__ = ["calibrate"]
 
-ALL = ("base", "tool", "joint_offsets", "links")
 MISSING = (
     "thing_kin was built without Ceres, or one of its libraries is missing; on Debian install "
     "libceres-dev, then build with -DTHING_KIN_CERES=ON (the default)"
@@ -138,24 +138,27 @@ def calibrate(
     """
     if folds < 0 or folds == 1:
         raise ValueError(f"folds: got {folds}, expected 0 or at least 2")
-    shape = _shape(measured)
+    core = _module()
+    shape = arguments.shape_of(measured, q, chain.n)
     kind = kind or ("points" if shape[-1:] == (3,) else "poses")
     several = kind == "points" and len(shape) == 3 and shape[1] != 1
-    names = _groups(parameters)
+    names = arguments.groups_of(parameters)
     free = several and points is None
     place = np.zeros((shape[1], 3)) if free else points
     if kind == "points" and (free or "points" in names):
         names = [n for n in names if n.partition(".")[0] != "tool"]
         names += [] if "points" in names else ["points"]
-    joints = [_joint(chain, name) for name in sag]
+    joints = [arguments.joint_of(chain, name) for name in sag]
     names += ["sag"] if joints and "sag" not in names else []
-    joint_covariance = _joint_covariance(chain, q_covariance, base_covariance)
+    joint_covariance = arguments.joint_covariance(core, chain, q_covariance, base_covariance)
+
+    down = core.numbers(gravity, "gravity", (3,), False, False)
 
     def torques(postures: ArrayLike) -> Array | None:
-        return _torques(chain, postures, loads, gravity) if joints else None
+        return arguments.torques_of(chain, postures, loads, down) if joints else None
 
     def problem_of(groups: list[str]) -> Any:
-        return _module().Problem(
+        return core.Problem(
             chain, q, kind, measured, place, covariance, joint_covariance, torques(q),
             groups, dict(priors or {}), joints,
         )  # fmt: skip
@@ -171,7 +174,17 @@ def calibrate(
     }
     postures = np.array(q, dtype=float)
     fit = problem.fit(**options, postures=list(range(len(postures))))
-    run = CalibrationRun(chain, postures, problem, fit, options, torques, problem_of)
+    run = CalibrationRun(
+        chain,
+        postures,
+        problem,
+        fit,
+        options,
+        torques,
+        problem_of,
+        tuple(names),
+        arguments.places_of(measured),
+    )
     result = _result(run, covariance is None, place)
     return result.cross_validated(folds, np.random.default_rng(rng)) if folds else result
 
@@ -193,6 +206,7 @@ def _result(run: CalibrationRun, estimates_noise: bool, points: ArrayLike | None
         tool=fit.tool,
         points=_points(names, fit.values, points),
         names=names,
+        nominal=problem.nominal,
         values=fit.values,
         std=np.where(told | known, np.sqrt(np.diag(fit.covariance)), np.inf),
         covariance=fit.covariance,
@@ -222,60 +236,6 @@ def _points(names: tuple[str, ...], values: Array, nominal: ArrayLike | None) ->
             index, _, axis = name[len("points[") :].partition("].")
             points[int(index), "xyz".index(axis)] += value
     return points
-
-
-def _torques(chain: tk.Chain, q: ArrayLike, loads: Sequence[Load], gravity: ArrayLike) -> Array:
-    """Of the loads about the nominal joints, (N, n)."""
-    total = np.zeros(np.shape(q))
-    for frame, point, mass in loads:
-        J = chain.jacobian(q, of=frame, point=point)[..., :3, :]
-        total = total + mass * np.einsum("...ij,i->...j", J, np.asarray(gravity, dtype=float))
-    return total
-
-
-def _shape(measured: ArrayLike) -> tuple[int, ...]:
-    """() for what is no array: the core says so."""
-    try:
-        return np.shape(measured)
-    except ValueError:
-        return ()
-
-
-def _groups(parameters: str | Iterable[str]) -> list[str]:
-    names = [parameters] if isinstance(parameters, str) else list(parameters)
-    if not all(isinstance(name, str) for name in names):
-        raise ValueError(f"parameters: got {names!r}, expected names")
-    expanded = [part for name in names for part in (ALL if name == "all" else (name,))]
-    if not expanded:
-        raise ValueError("parameters: got none, expected at least one")
-    return expanded
-
-
-def _joint(chain: tk.Chain, name: str | int) -> int:
-    known = list(chain.names)
-    if isinstance(name, str) and name in known:
-        return known.index(name)
-    if isinstance(name, int) and 0 <= name < chain.n:
-        return name
-    raise ValueError(f"sag: got {name!r}, expected joints of {known}")
-
-
-def _joint_covariance(
-    chain: tk.Chain, joints: ArrayLike | None, base: ArrayLike | None
-) -> ArrayLike | None:
-    """One covariance of all joints: that of the base's three stands in its place."""
-    if base is None:
-        return joints
-    given = np.asarray(base, dtype=float)
-    where = list(chain.base_joints or ())
-    if given.shape[-2:] != (3, 3) or given.ndim > 3 or not where:
-        expected = "(3, 3) or (N, 3, 3), and a chain on a mobile base"
-        raise ValueError(f"base_covariance: got shape {given.shape}, expected {expected}")
-    whole = np.zeros((*given.shape[:-2], chain.n, chain.n))
-    if joints is not None:
-        whole = whole + np.asarray(joints, dtype=float)
-    whole[..., np.ix_(where, where)[0], np.ix_(where, where)[1]] += given
-    return whole
 
 
 def _module() -> Any:

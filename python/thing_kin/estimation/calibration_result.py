@@ -1,21 +1,16 @@
-"""What a calibration found: numbers with deviations, what stays unknown, a report."""
+"""What the calibration of an arm found: numbers with deviations, and what stays unknown."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from thing_kin.estimation import calibration_report, ur_yaml
-from thing_kin.estimation.calibration_run import CalibrationRun, rms
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    import thing_kin as tk
+from thing_kin.estimation import calibration_hints, calibration_words
+from thing_kin.estimation.calibrated_arm import CalibratedArm
+from thing_kin.estimation.calibration_base import rms
 
 __all__ = ["Calibration"]
 
@@ -23,8 +18,8 @@ Array = NDArray[np.float64]
 EVERYWHERE = 100  # random postures that stand for all
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class Calibration:
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class Calibration(CalibratedArm):
     """The arm as calibrated, and how sure that is.
 
     Returned by `calibrate`. "Nominal" is the chain as it came, with base and tool (or points) as
@@ -42,6 +37,8 @@ class Calibration:
         Measured points on the tool.
     names : tuple of str
         Of all parameters.
+    nominal : (p,)
+        Their values before: a row's own numbers, points as given, 1 for scales, 0 for differences.
     values : (p,)
         Of the parameters, as differences from nominal, m and rad. Base: x, y, z and a rotation
         vector in the root's nominal axes; tool: the same in the last frame's.
@@ -88,66 +85,13 @@ class Calibration:
     True
     """
 
-    status: str
-    chain: tk.Chain
-    base: Array
-    tool: Array
-    points: Array
-    names: tuple[str, ...]
-    values: Array
-    std: Array
-    covariance: Array
-    unidentifiable: tuple[str, ...]
-    combinations: tuple[str, ...]
     rank: int
     noise_position: float
     noise_rotation: float
     noise_is_estimated: bool
     variance_factor: float
     dof: float
-    errors: Array
-    distances: Array
-    outliers: tuple[Any, ...]
     iterations: int
-    cross_validated_rms_position: float
-    cross_validated_rms_rotation: float
-    fold_rms: tuple[float, ...]
-    _run: CalibrationRun
-
-    @property
-    def success(self) -> bool:
-        """Whether the least squares have converged on data that exceed the parameters."""
-        return self.status == "converged"
-
-    @property
-    def parameters(self) -> dict[str, float]:
-        """Values by name."""
-        return dict(zip(self.names, self.values.tolist(), strict=True))
-
-    @property
-    def joint_offsets(self) -> Array:
-        """(n,), rad or m: what is added to the readings; 0 where not estimated."""
-        return self._by_joint("joint_offsets")
-
-    @property
-    def joint_scales(self) -> Array:
-        """(n,): true motion over what is read; 1 where not estimated."""
-        return 1.0 + self._by_joint("joint_scales")
-
-    @property
-    def compliances(self) -> Array:
-        """(n,), rad for each N m of the loads' torque; 0 where not estimated."""
-        return self._by_joint("sag")
-
-    @property
-    def rms_position(self) -> float:
-        """Root mean square distance of measured from predicted places, m."""
-        return rms(self.errors[..., :3])
-
-    @property
-    def rms_rotation(self) -> float:
-        """Root mean square angle, rad; NaN where no rotation was measured."""
-        return rms(self.errors[..., 3:])
 
     @property
     def errors_nominal(self) -> Array:
@@ -155,14 +99,13 @@ class Calibration:
         return self._errors_nominal
 
     @property
-    def rms_position_nominal(self) -> float:
-        """As `rms_position`, of the nominal chain, m."""
-        return rms(self.errors_nominal[..., :3])
+    def hints(self) -> tuple[str, ...]:
+        """What looks like a mistake in the data, or too few parameters; () where all looks well.
 
-    @property
-    def rms_rotation_nominal(self) -> float:
-        """As `rms_rotation`, of the nominal chain, rad."""
-        return rms(self.errors_nominal[..., 3:])
+        Other units, another order of joints, postures or points; or `links`, where they would
+        explain much of what is left.
+        """
+        return self._hints
 
     @property
     def never_identifiable(self) -> tuple[str, ...]:
@@ -173,55 +116,6 @@ class Calibration:
     def degenerate(self) -> bool:
         """Whether these postures leave unknown what others would tell."""
         return not set(self.unidentifiable) <= set(self.never_identifiable)
-
-    def readings(self, q: ArrayLike) -> Array:
-        """Joint positions for `chain` where q is read: with scales and sag, without offsets.
-
-        Parameters
-        ----------
-        q : (n,) or (N, n)
-
-        Returns
-        -------
-        (n,) or (N, n)
-
-        Examples
-        --------
-        >>> import thing_kin as tk
-        >>> from thing_kin import estimation as est
-        >>> arm = tk.robots.ur5()
-        >>> q = arm.random(30, rng=0)
-        >>> result = est.calibrate(arm, q, arm.fk(q), parameters=("base", "tool"))
-        >>> bool((result.readings(q) == q).all())
-        True
-        """
-        q = np.asarray(q, dtype=float)
-        sag = self._run.torques(q)
-        corrected: Array = q * self.joint_scales
-        return corrected if sag is None else corrected + self.compliances * sag
-
-    def predict(self, q: ArrayLike) -> Array:
-        """Pose of the tool in the world where q is read, scales and sag included.
-
-        Parameters
-        ----------
-        q : (n,) or (N, n)
-
-        Returns
-        -------
-        (4, 4) or (N, 4, 4)
-
-        Examples
-        --------
-        >>> import numpy as np, thing_kin as tk
-        >>> from thing_kin import estimation as est
-        >>> arm = tk.robots.ur5()
-        >>> q = arm.random(30, rng=0)
-        >>> result = est.calibrate(arm, q, arm.fk(q), parameters=("base", "tool"))
-        >>> bool(np.allclose(result.predict(q), arm.fk(q)))
-        True
-        """
-        return np.asarray(self.base @ self.chain.fk(self.readings(q)) @ self.tool)
 
     def propose_postures(
         self,
@@ -262,124 +156,11 @@ class Calibration:
             candidates = self._run.chain.random(candidates, rng=rng)
         return self._run.most_telling(candidates, count)
 
-    def report(self) -> str:
-        """Return all of it in words.
-
-        Returns
-        -------
-        str
-
-        Examples
-        --------
-        >>> import thing_kin as tk
-        >>> from thing_kin import estimation as est
-        >>> arm = tk.robots.ur5()
-        >>> q = arm.random(30, rng=0)
-        >>> print(est.calibrate(arm, q, arm.fk(q)).report().splitlines()[0])
-        Calibration of ur5: converged, 30 measurements at 30 postures
-        """
-        return calibration_report.report(self)
-
-    def __str__(self) -> str:
-        return self.report()
-
     def __repr__(self) -> str:
         return (
             f"Calibration({self._run.chain.name}, {self.status}, {len(self.names)} parameters, "
             f"rank {self.rank}, rms_position={self.rms_position:.3g})"
         )
-
-    def plot(self) -> Figure:
-        """Draw the residuals before and after, and the parameters with their deviations.
-
-        Returns
-        -------
-        matplotlib Figure
-
-        Examples
-        --------
-        >>> import thing_kin as tk
-        >>> from thing_kin import estimation as est
-        >>> arm = tk.robots.ur5()
-        >>> q = arm.random(30, rng=0)
-        >>> len(est.calibrate(arm, q, arm.fk(q)).plot().axes)
-        3
-        """
-        from thing_kin import viz
-
-        return viz.plot_calibration(self)
-
-    def to_urdf(self, name: str | None = None) -> str:
-        """Return the calibrated chain as URDF, as `Chain.to_urdf`; base and tool are not in it.
-
-        Parameters
-        ----------
-        name : str, optional
-            Of the robot; default: the chain's.
-
-        Returns
-        -------
-        str
-
-        Examples
-        --------
-        >>> import thing_kin as tk
-        >>> from thing_kin import estimation as est
-        >>> arm = tk.robots.ur5()
-        >>> q = arm.random(30, rng=0)
-        >>> est.calibrate(arm, q, arm.fk(q)).to_urdf().startswith("<?xml")
-        True
-        """
-        return self.chain.to_urdf(name)
-
-    def to_ur_calibration(self) -> dict[str, dict[str, dict[str, float]]]:
-        """Return the calibrated chain as Universal Robots' driver wants it, for `tk.robots.ur5`.
-
-        Returns
-        -------
-        dict
-            {"kinematics": {"shoulder": {"x", "y", "z", "roll", "pitch", "yaw"}, ...}}
-
-        Raises
-        ------
-        ValueError
-            If the chain is not six turning joints, or ends in a turn or shift off the last axis,
-            which the driver's format can't say: hold those of the last row by priors of 0.
-
-        Examples
-        --------
-        >>> import numpy as np, thing_kin as tk
-        >>> from thing_kin import estimation as est
-        >>> arm = tk.robots.ur5()
-        >>> q = arm.random(30, rng=0)
-        >>> mapping = est.calibrate(arm, q, arm.fk(q)).to_ur_calibration()
-        >>> bool(np.allclose(tk.robots.ur5(mapping).fk(q), arm.fk(q)))
-        True
-        """
-        return ur_yaml.mapping_of(self.chain)
-
-    def to_yaml(self, hash: str = "") -> str:
-        """Return the same as the text of the driver's YAML file.
-
-        Parameters
-        ----------
-        hash : str
-            Of the controller's own calibration, which the driver compares; "": left out.
-
-        Returns
-        -------
-        str
-
-        Examples
-        --------
-        >>> import thing_kin as tk
-        >>> from thing_kin import estimation as est
-        >>> arm = tk.robots.ur5()
-        >>> q = arm.random(30, rng=0)
-        >>> est.calibrate(arm, q, arm.fk(q)).to_yaml().splitlines()[:2]
-        ['kinematics:', '  shoulder:']
-        """
-        return ur_yaml.yaml_of(self.to_ur_calibration(), hash)
 
     def cross_validated(self, folds: int, rng: np.random.Generator) -> Calibration:
         """Return the same with the rms of held-out postures; see `calibrate`.
@@ -418,11 +199,20 @@ class Calibration:
         return self._run.errors_nominal(self.names)
 
     @cached_property
+    def _hints(self) -> tuple[str, ...]:
+        return calibration_hints.hints_of(self)
+
+    @cached_property
     def _never_identifiable(self) -> tuple[str, ...]:
         told = self._run.told_at(self._run.chain.random(EVERYWHERE, rng=0))
         return tuple(n for n, is_told in zip(self.names, told, strict=True) if not is_told)
 
-    def _by_joint(self, group: str) -> Array:
-        known = self.parameters
-        n = self._run.chain.n
-        return np.array([known.get(f"{group}[{i}]", 0.0) for i in range(n)])
+    def _title(self) -> str:
+        measured = int(np.isfinite(self.distances).sum())
+        return (
+            f"Calibration of {self._run.chain.name}: {self.status}, {measured} measurements at "
+            f"{len(self.errors)} postures"
+        )
+
+    def _details(self) -> list[str]:
+        return calibration_words.details_of_arm(self)

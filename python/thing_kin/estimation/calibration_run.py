@@ -26,6 +26,8 @@ class CalibrationRun:
     options: dict[str, Any]
     torques: Callable[[ArrayLike], Array | None]
     with_parameters: Callable[[list[str]], Any]  # the same data, other parameters
+    groups: tuple[str, ...]  # of parameters, as asked for
+    places: Array  # as measured, (N, k, 3)
 
     @property
     def everything(self) -> list[int]:
@@ -34,7 +36,7 @@ class CalibrationRun:
 
     def told_at(self, q: Array) -> Array:
         """Whether measurements at these postures would tell each parameter."""
-        return np.asarray(self.problem.sight_of(self.fit, q, self.torques(q)), dtype=bool)
+        return np.asarray(self.problem.told_at(self.fit, q, self.torques(q)), dtype=bool)
 
     def most_telling(self, candidates: ArrayLike, count: int) -> Array:
         """Choose the best of the candidates, one after the other."""
@@ -76,10 +78,3 @@ class CalibrationRun:
             rows = self.problem.errors(fit, test.tolist())
             errors.append(rows.reshape(-1, self.problem.rows))
         return errors
-
-
-def rms(errors: Array) -> float:
-    """Root mean square length of rows; rows of NaN are left out, NaN for none."""
-    squares = np.sum(errors * errors, axis=-1)
-    seen = squares[np.isfinite(squares)]
-    return float(np.sqrt(seen.mean())) if seen.size and errors.shape[-1] else float("nan")

@@ -1,4 +1,4 @@
-"""A calibration: residuals before and after, and what is known of the parameters."""
+"""Calibrations: residuals before and after, and what is known of the parameters."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-    from thing_kin.estimation import Calibration
+    from thing_kin.estimation import CalibrationResult
 
     Array = NDArray[np.float64]
 
 
-def plot_calibration(result: Calibration) -> Figure:
-    """Errors of each posture before and after, their distribution, the arm's parameters.
+def plot_calibration(result: CalibrationResult) -> Figure:
+    """Errors of each measurement before and after, their distribution, the parameters.
 
     Outliers are ringed. A parameter's bar is its change from nominal, its whisker twice its
-    standard deviation; what the data do not tell is gray.
+    standard deviation; what the data do not tell is gray, its name too.
 
     Parameters
     ----------
-    result : estimation.Calibration
+    result : estimation.Calibration or estimation.MecanumCalibration
 
     Examples
     --------
@@ -40,7 +40,8 @@ def plot_calibration(result: Calibration) -> Figure:
     """
     figure = new_figure(figsize=(12, 7))
     parts = figure.subplot_mosaic([["errors", "share"], ["values", "values"]], width_ratios=(2, 1))
-    before, after = (_lengths(errors) for errors in (result.errors_nominal, result.errors))
+    numbers = result._position_numbers
+    before, after = (_lengths(e[..., :numbers]) for e in (result.errors_nominal, result.errors))
     for lengths, color, name in ((before, ORANGE, "nominal"), (after, BLUE, "calibrated")):
         at = np.repeat(np.arange(len(lengths)), lengths.shape[1])
         parts["errors"].semilogy(at, lengths.ravel(), "o", color=color, ms=4, label=name)
@@ -51,7 +52,7 @@ def plot_calibration(result: Calibration) -> Figure:
         posture, point = outlier if isinstance(outlier, tuple) else (outlier, 0)
         parts["errors"].plot(posture, after[posture, point], "o", mfc="none", mec=RED, ms=10)
     title = f"rms {_rms(before):.3g} mm to {_rms(after):.3g} mm"
-    tidy(parts["errors"], title=title, xlabel="posture", ylabel="error [mm]")
+    tidy(parts["errors"], title=title, xlabel=result._measurement, ylabel="error [mm]")
     tidy(parts["share"], xlabel="error [mm]", ylabel="share")
     parts["errors"].legend(loc="best", frameon=False)
     _values(parts["values"], result)
@@ -60,7 +61,7 @@ def plot_calibration(result: Calibration) -> Figure:
 
 def _lengths(errors: Array) -> Array:
     """Of positions, mm, (N, k)."""
-    lengths: Array = 1e3 * np.linalg.norm(errors[..., :3], axis=-1)
+    lengths: Array = 1e3 * np.linalg.norm(errors, axis=-1)
     lengths = np.maximum(lengths, 1e-9)  # on a logarithmic axis
     return lengths if lengths.ndim > 1 else lengths[:, None]
 
@@ -69,17 +70,19 @@ def _rms(lengths: Array) -> float:
     return float(np.sqrt(np.nanmean(lengths**2)))
 
 
-def _values(axes: Axes, result: Calibration) -> None:
-    """Of the arm alone: where base, tool and points stand is no error."""
-    of_arm = [
-        i for i, name in enumerate(result.names) if not name.startswith(("base", "tool", "points"))
-    ]
-    factor = np.array([100.0 if "scales" in result.names[i] else 1e3 for i in of_arm])
-    values, std = factor * result.values[of_arm], factor * result.std[of_arm]
+def _values(axes: Axes, result: CalibrationResult) -> None:
+    """Of the robot alone: where base, tool, points and a reference stand is no error."""
+    places = ("base", "tool", "points", "mount_")
+    rows = [row for row in result.table if not row.name.startswith(places)]
+    factor = np.array([100.0 if row.unit == "1" else 1e3 for row in rows])
+    values = factor * np.array([row.change for row in rows])
+    std = factor * np.array([row.std for row in rows])
     told = np.isfinite(std)
-    at = np.arange(len(of_arm))
+    at = np.arange(len(rows))
     axes.bar(at, values, color=[BLUE if t else GRAY for t in told], width=0.6)
     whiskers = np.where(told, 2 * std, 0.0)
     axes.errorbar(at, values, whiskers, fmt="none", ecolor=BLACK, elinewidth=1.0, capsize=2)
-    axes.set_xticks(at, [result.names[i] for i in of_arm], rotation=60, ha="right", fontsize=7)
+    axes.set_xticks(at, [row.name for row in rows], rotation=60, ha="right", fontsize=7)
+    for label, is_told in zip(axes.get_xticklabels(), told, strict=True):
+        label.set_color(BLACK if is_told else GRAY)
     tidy(axes, title="Changes, with twice their deviations", ylabel="change [mm, mrad, %]")

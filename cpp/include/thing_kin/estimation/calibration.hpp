@@ -1,27 +1,15 @@
 #pragma once
 
-#include <cstdint>
 #include <limits>
-#include <span>
-#include <string>
-#include <vector>
 
 #include "thing_kin/estimation/calibration_analysis.hpp"
-#include "thing_kin/estimation/calibration_model.hpp"
-#include "thing_kin/estimation/calibration_residuals.hpp"
+#include "thing_kin/estimation/calibration_loss.hpp"
 
 namespace thing_kin {
 
-/// What a measurement counts, by its distance in standard deviations; ceres/loss_function.h.
-enum class CalibrationLoss : std::uint8_t { kLinear, kHuber, kSoftL1, kCauchy, kTukey };
-
-/// "linear", "huber", "soft_l1", "cauchy", "tukey"; throws InvalidArgument.
-CalibrationLoss calibration_loss_from_string(const std::string& name);
-
 struct CalibrationOptions {
   CalibrationLoss loss = CalibrationLoss::kCauchy;
-  /// Where the loss leaves the parabola, in standard deviations; NaN: as efficient as 95 % with
-  /// normal noise.
+  /// Where the loss leaves the parabola, in standard deviations; NaN: standard_loss_scale().
   double loss_scale = std::numeric_limits<double>::quiet_NaN();
   double gate = 0.999;  ///< a measurement beyond this quantile of chi-square is an outlier
   int max_iterations = 100;

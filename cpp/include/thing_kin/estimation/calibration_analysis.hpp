@@ -37,9 +37,4 @@ std::vector<int> most_telling(const RowMajorMatrix& J, int rows,
                               std::span<const CalibrationParameter> parameters,
                               const Eigen::MatrixXd& covariance, int count);
 
-/// Shares of the residuals that the parameters take: diagonal blocks of the hat matrix, m by m,
-/// below each other.
-RowMajorMatrix leverages(const RowMajorMatrix& J, std::span<const CalibrationParameter> parameters,
-                         int m);
-
 }  // namespace thing_kin

@@ -76,6 +76,7 @@ class CalibrationModel {
 
   Motion& motion_of(CalibrationPart part, int segment);
   void set_row(std::size_t s);
+  void set_readings();
   SE3 pass(Motion& motion, const SE3& frame);
   void pass_joint(const Link& link, const SE3& frame, const VectorView& q,
                   const VectorView& torques);
@@ -88,6 +89,8 @@ class CalibrationModel {
   std::vector<Motion> origins_;
   Motion base_motion_, tool_motion_;
   CalibrationState state_;
+  Eigen::VectorXd gains_, offsets_, compliances_;  // of the joints' readings
+  bool wants_screws_ = true;
   std::vector<Screw> screws_;        // of each parameter, at the last posture
   std::vector<Screw> joint_screws_;  // of each joint
 };

@@ -78,17 +78,14 @@ class CalibrationResiduals {
   void evaluate(const CalibrationState& state, Eigen::VectorXd& r, RowMajorMatrix* J);
 
  private:
-  using BlockRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, Eigen::Dynamic>;
-  using BlockMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
-
   const Eigen::VectorXd& torques_at(int posture);
   Eigen::Vector3d point_of(int point, const CalibrationState& state) const;
 
   CalibrationModel& model_;
   const CalibrationData& data_;
   std::vector<Block> blocks_;
-  std::vector<BlockMatrix> whiteners_;
-  bool is_diagonal_ = true;  // all of these
+  std::vector<Matrix6> whiteners_;  // of which a measurement's rows count
+  bool is_diagonal_ = true;         // all of these
   Eigen::VectorXd torques_;
 };
 
