@@ -176,7 +176,7 @@ def stop_and_go(seconds=10.0):
     poses, twists, speed, ahead = [np.array([-1.5, -1.0, 0.3])], [], 0.0, True
     for _ in range(round(seconds / PIECE)):
         speed += PIECE * (1.0 if ahead else -1.5)
-        ahead = ahead and speed < 1.0 or speed <= 0.0
+        ahead = (ahead and speed < 1.0) or speed <= 0.0
         twists.append(np.array([max(speed, 0.0), 0.0, 0.6 * max(speed, 0.0)]))
         poses.append(compose(poses[-1], moved(twists[-1], PIECE)))
     return Drive(np.array(poses), np.array(twists))
@@ -222,7 +222,7 @@ def test_twists_that_are_equal_are_a_constant_one(twists):
         # The motion of a constant twist is what is told by both.
         motion = lie.se2_exp(0.2 * twists[0]) if t > 0 else None
         a = one.add(scan, t=t, motion=motion, twists=twists)
-        b = other.add(scan, t=t, motion=motion, twists=twists + [[0, 0, 0], [1e-12, 0, 0]])
+        b = other.add(scan, t=t, motion=motion, twists=np.add(twists, [[0, 0, 0], [1e-12, 0, 0]]))
         np.testing.assert_allclose(a.pose, b.pose, atol=1e-8)
 
 
