@@ -184,6 +184,7 @@ void LocalMap::insert(const PlanarScan& scan, const Pose2& pose, double clock) {
 
 // Of all surfels whose neighborhood has changed.
 void LocalMap::draw_lines() {
+  stale_.reserve(surfels_.capacity());
   stale_.assign(surfels_.size(), 0);
   for (const std::int32_t k : changed_) {
     const Vector2d p = surfels_[static_cast<std::size_t>(k)].p;

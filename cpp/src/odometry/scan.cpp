@@ -210,6 +210,7 @@ void read_scan(const Scanner& scanner, std::span<const double> ranges, const Sca
   place_points(scanner, ranges, motion, out);
   // Kept from scan to scan so that none is allocated.
   thread_local std::vector<Sums> sums;
+  sums.reserve(static_cast<std::size_t>(scanner.n) + 1);
   sums.assign(out.size() + 1, Sums{});
   for (std::size_t i = 0; i < out.size(); ++i) {
     sums[i + 1] = sums[i];

@@ -176,6 +176,15 @@ struct Directions {
   }
 };
 
+// So many of it, and memory for twice as many: none is needed anew for each one more.
+template <typename T>
+void assign_with_room(std::vector<T>& values, std::size_t count, const T& value) {
+  if (values.capacity() < count) {
+    values.reserve(2 * count);
+  }
+  values.assign(count, value);
+}
+
 struct Fit {
   Pose2 pose;
   Normal normal;
@@ -189,7 +198,7 @@ class Matcher {
   Matcher(const LocalMap& map, const PlanarScan& scan, const MatchGuess& guess,
           const MatchOptions& options, std::vector<Kept>& kept)
       : map_(map), scan_(scan), guess_(guess), options_(options), kept_(kept) {
-    kept_.assign(scan.size(), Kept{});
+    assign_with_room(kept_, scan.size(), Kept{});
     Matrix3d P = guess.covariance;
     P.diagonal() += Vector3d(kFloor * kFloor, kFloor * kFloor, kFloorTurn * kFloorTurn);
     distrust_ = P.inverse();
@@ -279,7 +288,7 @@ MatchSpread spread_of(const LocalMap& map, const PlanarScan& scan, const Fit& fi
                       Workspace& workspace) {
   std::vector<Kept>& kept = workspace.kept;
   std::vector<int>& hits = workspace.hits;
-  hits.assign(map.surfels().size(), 0);
+  assign_with_room(hits, map.surfels().size(), 0);
   const auto index = [&](const Surfel* surfel) {
     return static_cast<std::size_t>(surfel - map.surfels().data());
   };
