@@ -496,6 +496,7 @@ LIDAR = [
     Argument("match", "guess", XI[3:], matched("guess"), moderate=True),
     Argument("match", "guess_covariance", np.eye(3), matched("guess_covariance"), moderate=True),
     Argument("LaserOdometry", "motion", XI[3:], followed("motion"), moderate=True),
+    Argument("LaserOdometry", "twists", XI.reshape(2, 3), followed("twists"), moderate=True),
     Argument(
         "LaserOdometry",
         "motion_covariance",

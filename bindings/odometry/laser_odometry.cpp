@@ -59,13 +59,29 @@ std::optional<PlanarEstimate> read_motion(const OptionalArray& motion,
   return measured;
 }
 
+// Rows (first, last), each three moderate numbers.
+std::optional<ScanMotion> read_twists(const OptionalArray& twists) {
+  if (twists.is_none()) {
+    return std::nullopt;
+  }
+  const Batch rows = read(twists, "twists", {2, 3}, false);
+  check_magnitude(rows, "twists");
+  ScanMotion during;
+  for (int k = 0; k < 3; ++k) {
+    during.first[k] = rows.data[k];
+    during.last[k] = rows.data[3 + k];
+  }
+  return during;
+}
+
 LaserStep add(Track& self, const ArrayLike& ranges, double t, const OptionalArray& motion,
-              const OptionalArray& motion_covariance) {
+              const OptionalArray& motion_covariance, const OptionalArray& twists) {
   const std::vector<double> read_in = read_ranges(self.odometry.scanner(), ranges, "ranges");
   const std::optional<PlanarEstimate> measured = read_motion(motion, motion_covariance);
+  const std::optional<ScanMotion> during = read_twists(twists);
   const py::gil_scoped_release release;
   const std::scoped_lock lock(self.busy);
-  LaserStep step = self.odometry.add(read_in, t, measured);
+  LaserStep step = self.odometry.add(read_in, t, measured, during);
   self.poses.push_back(step.pose);
   return step;
 }
@@ -205,6 +221,7 @@ True
            py::arg("max_points") = standard.match.max_points)
       .def("add", &add, py::arg("ranges"), py::kw_only(), py::arg("t"),
            py::arg("motion") = py::none(), py::arg("motion_covariance") = py::none(),
+           py::arg("twists") = py::none(),
            R"(Takes the next scan.
 
 Parameters
@@ -217,6 +234,10 @@ motion : (3,), m and rad, optional
     Pose now as the robot before saw it, as wheels measured it; else velocity is taken as constant.
 motion_covariance : (3, 3), optional
     Of `motion`, in the axes of the robot before; default diag(0.05^2, 0.05^2, 0.1^2).
+twists : (2, 3), m/s and rad/s, optional
+    Of the robot at the first beam and at the last, in its own axes; in between they change evenly.
+    Else the mean twist since the scan before is taken to go on, which is wrong for a slow scanner
+    (`scan_time`) on a robot that brakes.
 
 Returns
 -------

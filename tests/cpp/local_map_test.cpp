@@ -133,7 +133,7 @@ TEST(LocalMap, ClearedItIsAsNew) {
   for (std::size_t k = 0; k < fresh.surfels().size(); ++k) {
     EXPECT_EQ(fresh.surfels()[k].p, used.surfels()[k].p);
     EXPECT_EQ(fresh.surfels()[k].line_normal, used.surfels()[k].line_normal);
-    EXPECT_EQ(fresh.surfels()[k].roughness, used.surfels()[k].roughness);
+    EXPECT_EQ(fresh.surfels()[k].line_p, used.surfels()[k].line_p);
   }
 }
 

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
+#include <numbers>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "random_chain.hpp"
+#include "scan_room.hpp"
 #include "thing_kin/core/simd.hpp"
 #include "thing_kin/estimation/end_effector.hpp"
 #include "thing_kin/estimation/extended_kalman.hpp"
@@ -27,6 +29,7 @@
 #include "thing_kin/linalg/null_space.hpp"
 #include "thing_kin/linalg/pseudoinverse.hpp"
 #include "thing_kin/model/robots.hpp"
+#include "thing_kin/odometry/laser_odometry.hpp"
 #include "thing_kin/odometry/mecanum.hpp"
 #include "thing_kin/planning/path_follower.hpp"
 
@@ -371,6 +374,38 @@ TEST(NoHeap, OdometryAndTheHandOnIt) {
             }),
             0);
   EXPECT_GT(hand.covariance.trace(), 0.0);
+}
+
+TEST(NoHeap, LaserOdometryInAKnownRoom) {
+  const Scanner scanner{.n = 1081, .range_max = 30.0, .scan_time = 0.02};  // thinned by matches
+  constexpr int kLap = 40;
+  std::vector<std::vector<double>> lap;
+  std::vector<Pose2> poses;
+  for (int k = 0; k <= kLap; ++k) {
+    const double phase = 2.0 * std::numbers::pi * k / kLap;
+    poses.emplace_back(0.4 * std::sin(phase), 0.3 * std::cos(phase), 0.5 * std::sin(phase));
+    lap.push_back(test::ranges_in(test::furnished_room(), scanner, poses.back(), 0.01,
+                                  static_cast<unsigned>(k)));
+  }
+  LaserOdometry lidar(scanner, {});
+  int at = 0;
+  int keyframes = 0;
+  int lost = 0;
+  const auto drive = [&](int scans) {
+    for (int end = at + scans; at < end; ++at) {
+      const auto k = static_cast<std::size_t>(at % kLap);
+      const PlanarEstimate moved{.pose = between(poses[k > 0 ? k - 1 : kLap - 1], poses[k]),
+                                 .covariance = 1e-4 * Eigen::Matrix3d::Identity()};
+      const LaserStep step = lidar.add(lap[k], 0.1 * at, moved, ScanMotion{});
+      keyframes += step.keyframe ? 1 : 0;
+      lost += step.status == LaserStatus::kLost ? 1 : 0;
+    }
+  };
+  drive(30 * kLap);  // until as much is forgotten as is new
+  const int before = keyframes;
+  EXPECT_EQ(allocations_in([&] { drive(2 * kLap); }), 0);
+  EXPECT_GT(keyframes, before + 4);  // what a scan adds to the map was known
+  EXPECT_EQ(lost, 0);
 }
 
 TEST(NoHeap, PathFollower) {

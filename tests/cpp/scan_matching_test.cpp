@@ -65,23 +65,87 @@ TEST(ScanMatching, EndsWhereTheGradientOfItsCostIsZero) {
       continue;  // between two sets of pairs
     }
     ++converged;
+    const Pose2 end = match.pose + match.drawn;  // the fit, before lines' pull was taken back
     Vector3d slope;
     Vector3d bend;
     for (int k = 0; k < 3; ++k) {
       const Vector3d d = 1e-4 * Vector3d::Unit(k);
       const auto cost = [&](const Pose2& pose) {
-        return cost_of(map, scan, match.pose, pose, guess.pose);
+        return cost_of(map, scan, end, pose, guess.pose);
       };
-      const double ahead = cost(match.pose + d);
-      const double behind = cost(match.pose - d);
+      const double ahead = cost(end + d);
+      const double behind = cost(end - d);
       slope[k] = (ahead - behind) / 2e-4;
-      bend[k] = (ahead - 2.0 * cost(match.pose) + behind) / 1e-8;
+      bend[k] = (ahead - 2.0 * cost(end) + behind) / 1e-8;
     }
     EXPECT_GT(bend.minCoeff(), 10.0);
     // The last step is below 1e-5, and scales converge linearly by a share of it.
     EXPECT_LT(slope.cwiseQuotient(bend).cwiseAbs().maxCoeff(), 1e-5);
   }
   EXPECT_GE(converged, 7);
+}
+
+// Two walls and places between them: the scan sees the walls as they are, the places d further
+// back.
+PlanarScan walls_and_places(double d) {
+  PlanarScan scan;
+  const auto add = [&](double x, double y, const Vector2d& normal) {
+    scan.push_back(
+        {.p = Vector2d(x, y),
+         .normal = normal,
+         .surroundings = normal.isZero(0.0) ? Surroundings::kCorner : Surroundings::kSurface});
+  };
+  for (int k = -10; k <= 10; ++k) {
+    add(3.0, 0.1 * k, {-1.0, 0.0});
+    add(0.1 * k, -3.0, {0.0, 1.0});
+    add(1.0 - d, 0.2 * k, Vector2d::Zero());
+  }
+  return scan;
+}
+
+TEST(ScanMatching, APlaceCountsHalfAndReachesTwiceAsFar) {
+  constexpr double kAway = 0.06;
+  LocalMap map;
+  map.insert(walls_and_places(0.0), Pose2::Zero(), 0.0);
+  const ScanMatch match =
+      match_scan(map, walls_and_places(kAway), guess_of(Pose2::Zero()), {}, 0.01, {});
+  // By symmetry only x moves; there 21 of each and the guess's quarter of a point hold each other.
+  const auto force = [&](double x) {
+    const auto pull = [](double e, double scale) {
+      return e / std::pow(1.0 + e * e / (scale * scale), 2);
+    };
+    return 21.0 * pull(x, 0.1) + 21.0 * 0.5 * pull(x - kAway, 0.2) + 0.25 * x;
+  };
+  double low = 0.0;
+  double high = kAway;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (low + high);
+    (force(middle) < 0.0 ? low : high) = middle;
+  }
+  EXPECT_EQ(match.status, MatchStatus::kConverged);
+  EXPECT_GT(low, 0.01);
+  // The last step is below 1e-5.
+  EXPECT_LT(pose_difference(match.pose, Pose2(low, 0.0, 0.0)).cwiseAbs().maxCoeff(), 1e-5);
+}
+
+// A line through an arc lies behind it: seen once more from the same place the pillars lie in front
+// of their lines, and the fit alone is drawn by it.
+TEST(ScanMatching, RoundThingsDrawNothing) {
+  test::ScanRoom hall;
+  for (const auto& [x, y] : {std::pair{2.0, 0.5}, {3.0, -1.0}, {2.5, 2.0}, {4.0, 1.0}}) {
+    hall.discs.push_back({{x, y}, 0.3});
+  }
+  const Scanner scanner{.n = 1081, .range_max = 30.0};
+  const PlanarScan scan = test::scan_in(hall, scanner, Pose2::Zero());
+  LocalMap map;
+  map.insert(scan, Pose2::Zero(), 0.0);
+  const Pose2 truth(0.04, -0.03, 0.02);
+  const PlanarScan other = test::scan_in(hall, scanner, truth);
+  const ScanMatch match = match_scan(map, other, guess_of(Pose2::Zero()), {}, 0.01, {});
+  EXPECT_EQ(match.degenerate, 0);
+  EXPECT_GT(match.drawn.head<2>().norm(), 0.004);
+  EXPECT_LT(pose_difference(match.pose, truth).head<2>().norm(), 0.002);
+  EXPECT_GT(pose_difference(match.pose + match.drawn, truth).head<2>().norm(), 0.004);
 }
 
 TEST(ScanMatching, WhatIsUntoldStaysAsGuessed) {

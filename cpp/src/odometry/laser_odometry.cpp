@@ -242,7 +242,8 @@ void LaserOdometry::count_lost(LaserStep& step) {
 }
 
 LaserStep LaserOdometry::add(std::span<const double> ranges, double t,
-                             const std::optional<PlanarEstimate>& motion) {
+                             const std::optional<PlanarEstimate>& motion,
+                             const std::optional<ScanMotion>& during) {
   if (!std::isfinite(t) || (t_ && !(t > *t_))) {
     throw InvalidArgument("t", text(t), t_ ? "a time after " + text(*t_) : "a finite time");
   }
@@ -252,11 +253,12 @@ LaserStep LaserOdometry::add(std::span<const double> ranges, double t,
   const double dt = t - step.t_from;
   const PlanarEstimate moved = t_ ? guess_motion(dt, motion) : PlanarEstimate{};
   const Twist2 twist = dt > 0.0 ? Twist2(se2_log(moved.pose) / dt) : Twist2::Zero();
-  read_scan(scanner_, ranges, twist, scan_);
+  read_scan(scanner_, ranges, during.value_or(ScanMotion{.first = twist, .last = twist}), scan_);
   if (map_.surfels().empty()) {
     begin(moved, step);
   } else {
-    follow(find(ranges, guess_pose(moved, motion.has_value()), twist, dt), moved, step);
+    const MatchGuess guess = guess_pose(moved, motion.has_value());
+    follow(during ? match(guess, motion.has_value()) : find(ranges, guess, twist, dt), moved, step);
   }
   t_ = t;
   dt_ = dt;

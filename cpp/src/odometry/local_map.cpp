@@ -184,6 +184,7 @@ void LocalMap::insert(const PlanarScan& scan, const Pose2& pose, double clock) {
 
 // Of all surfels whose neighborhood has changed.
 void LocalMap::draw_lines() {
+  stale_.reserve(surfels_.capacity());
   stale_.assign(surfels_.size(), 0);
   for (const std::int32_t k : changed_) {
     const Vector2d p = surfels_[static_cast<std::size_t>(k)].p;
@@ -224,7 +225,6 @@ void LocalMap::draw_line(Surfel& surfel) const noexcept {
   Vector2d p = Vector2d::Zero();
   Vector2d normal = Vector2d::Zero();
   double total = 0.0;
-  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
   visit_near(surfel.p, kLineRadius, [&](std::int32_t k, const Entry& other, double distance2) {
     const double u = 1.0 - distance2 / (kLineRadius * kLineRadius);
     if (u > 0.0 && other.is_surface() && other.normal.dot(surfel.normal) >= kSameLine) {
@@ -232,7 +232,6 @@ void LocalMap::draw_line(Surfel& surfel) const noexcept {
           u * u * std::min(surfels_[static_cast<std::size_t>(k)].weight, kMostShare);
       const Vector2d off = other.p - surfel.p;
       p += weight * off;
-      squares += weight * off * off.transpose();
       normal += weight * other.normal;
       total += weight;
     }
@@ -241,9 +240,6 @@ void LocalMap::draw_line(Surfel& surfel) const noexcept {
     p /= total;
     surfel.line_p = surfel.p + p;
     surfel.line_normal = normal.normalized();
-    const double across = surfel.line_normal.dot(p);
-    surfel.roughness = std::max(
-        surfel.line_normal.dot(squares * surfel.line_normal) / total - across * across, 0.0);
   }
 }
 

@@ -118,6 +118,60 @@ bool stands_alone(const PlanarScan& scan, std::span<const double> ranges, const 
          range(own.last + 1) > range(own.last) + kForeground;
 }
 
+double between_beams(const Scanner& scanner) {
+  return scanner.n > 1 ? scanner.scan_time / (scanner.n - 1) : 0.0;
+}
+
+// Calls visit(beam, origin, direction), beam by beam, while the robot's twist stays.
+template <typename Visit>
+void visit_beams(const Scanner& scanner, const Twist2& twist, Visit&& visit) {
+  // From beam to beam the scanner moves by the same small motion, and the beam turns by more.
+  const Pose2 motion = se2_exp(twist * between_beams(scanner));
+  const Eigen::Matrix2d moved = Eigen::Rotation2Dd(motion.z()).toRotationMatrix();
+  const Eigen::Matrix2d turned =
+      Eigen::Rotation2Dd(motion.z() + scanner.increment()).toRotationMatrix();
+  const double first = scanner.mount.z() + scanner.angle_min;
+  Vector2d origin = scanner.mount.head<2>();
+  Vector2d direction(std::cos(first), std::sin(first));
+  for (int beam = 0; beam < scanner.n; ++beam) {
+    visit(beam, origin, direction);
+    origin = (moved * origin + motion.head<2>()).eval();
+    direction = (turned * direction).eval();
+  }
+}
+
+// The same while it changes evenly.
+template <typename Visit>
+void visit_beams(const Scanner& scanner, const ScanMotion& motion, Visit&& visit) {
+  const Twist2 change = (motion.last - motion.first) / std::max(scanner.n - 1, 1);
+  Pose2 robot = Pose2::Zero();
+  for (int beam = 0; beam < scanner.n; ++beam) {
+    const Pose2 laser = compose(robot, scanner.mount);
+    const double angle = laser.z() + scanner.angle(beam);
+    visit(beam, Vector2d(laser.head<2>()), Vector2d(std::cos(angle), std::sin(angle)));
+    const Twist2 twist = motion.first + (beam + 0.5) * change;
+    robot = compose(robot, se2_exp(twist * between_beams(scanner)));
+  }
+}
+
+// out <- the returns; their normals hold the beam's direction until they are known.
+void place_points(const Scanner& scanner, std::span<const double> ranges, const ScanMotion& motion,
+                  PlanarScan& out) {
+  out.clear();
+  const double farthest = std::min(scanner.range_max, kMostRange);
+  const auto place = [&](int beam, const Vector2d& origin, const Vector2d& direction) {
+    const double range = ranges[static_cast<std::size_t>(beam)];
+    if (range > 0.0 && range >= scanner.range_min && range < farthest) {
+      out.push_back({.p = origin + range * direction, .normal = direction, .beam = beam});
+    }
+  };
+  if (scanner.scan_time == 0.0 || motion.first == motion.last) {
+    visit_beams(scanner, motion.first, place);
+  } else {
+    visit_beams(scanner, motion, place);
+  }
+}
+
 }  // namespace
 
 void check_scanner(const Scanner& scanner) {
@@ -148,27 +202,16 @@ void check_scanner(const Scanner& scanner) {
 
 void read_scan(const Scanner& scanner, std::span<const double> ranges, const Twist2& twist,
                PlanarScan& out) {
-  out.clear();
-  const double farthest = std::min(scanner.range_max, kMostRange);
-  const double duration = scanner.n > 1 ? scanner.scan_time / (scanner.n - 1) : 0.0;
-  // From beam to beam the scanner moves by the same small motion, and the beam turns by more.
-  const Pose2 motion = se2_exp(twist * duration);
-  const Eigen::Matrix2d moved = Eigen::Rotation2Dd(motion.z()).toRotationMatrix();
-  const Eigen::Matrix2d turned =
-      Eigen::Rotation2Dd(motion.z() + scanner.increment()).toRotationMatrix();
-  const double first = scanner.mount.z() + scanner.angle_min;
-  Vector2d origin = scanner.mount.head<2>();
-  Vector2d direction(std::cos(first), std::sin(first));
-  for (int beam = 0; beam < scanner.n; ++beam) {
-    const double range = ranges[static_cast<std::size_t>(beam)];
-    if (range > 0.0 && range >= scanner.range_min && range < farthest) {
-      // The normal holds the beam's direction until it is known.
-      out.push_back({.p = origin + range * direction, .normal = direction, .beam = beam});
-    }
-    origin = (moved * origin + motion.head<2>()).eval();
-    direction = (turned * direction).eval();
-  }
-  std::vector<Sums> sums(out.size() + 1);
+  read_scan(scanner, ranges, ScanMotion{.first = twist, .last = twist}, out);
+}
+
+void read_scan(const Scanner& scanner, std::span<const double> ranges, const ScanMotion& motion,
+               PlanarScan& out) {
+  place_points(scanner, ranges, motion, out);
+  // Kept from scan to scan so that none is allocated.
+  thread_local std::vector<Sums> sums;
+  sums.reserve(static_cast<std::size_t>(scanner.n) + 1);
+  sums.assign(out.size() + 1, Sums{});
   for (std::size_t i = 0; i < out.size(); ++i) {
     sums[i + 1] = sums[i];
     sums[i + 1].add(out[i].p - out[0].p);

@@ -45,6 +45,8 @@ constexpr double kFloor = 0.05;
 constexpr double kFloorTurn = 0.1;
 // A candidate of the search must be better than what is there by this factor.
 constexpr double kBetter = 1.02;
+// Points further apart, m, are of two things.
+constexpr double kRunGap = 0.3;
 constexpr int kCandidates = 4;
 
 // What the points say at a pose: A step = -g.
@@ -174,6 +176,15 @@ struct Directions {
   }
 };
 
+// So many of it, and memory for twice as many: none is needed anew for each one more.
+template <typename T>
+void assign_with_room(std::vector<T>& values, std::size_t count, const T& value) {
+  if (values.capacity() < count) {
+    values.reserve(2 * count);
+  }
+  values.assign(count, value);
+}
+
 struct Fit {
   Pose2 pose;
   Normal normal;
@@ -185,8 +196,9 @@ struct Fit {
 class Matcher {
  public:
   Matcher(const LocalMap& map, const PlanarScan& scan, const MatchGuess& guess,
-          const MatchOptions& options)
-      : map_(map), scan_(scan), guess_(guess), options_(options), kept_(scan.size()) {
+          const MatchOptions& options, std::vector<Kept>& kept)
+      : map_(map), scan_(scan), guess_(guess), options_(options), kept_(kept) {
+    assign_with_room(kept_, scan.size(), Kept{});
     Matrix3d P = guess.covariance;
     P.diagonal() += Vector3d(kFloor * kFloor, kFloor * kFloor, kFloorTurn * kFloorTurn);
     distrust_ = P.inverse();
@@ -199,8 +211,6 @@ class Matcher {
   }
 
   Fit fit(const Pose2& start) { return descend(start, first_distance_, nullptr); }
-
-  std::vector<Kept>& kept() { return kept_; }
 
   // On from a fit, along directions that are told.
   Fit polish(const Pose2& start, const Directions& frozen) {
@@ -254,31 +264,58 @@ class Matcher {
   const MatchOptions& options_;
   Matrix3d distrust_;
   double first_distance_ = kFirstDistance;
-  std::vector<Kept> kept_;
+  std::vector<Kept>& kept_;
 };
 
-// The scan's noise and, through the surfels, the map's, carried to the pose; where residuals are
-// larger than noise explains, both grow with them.
-Matrix3d spread_of(const LocalMap& map, const PlanarScan& scan, const Fit& fit, double noise,
-                   std::vector<Kept>& kept) {
-  std::vector<int> hits(map.surfels().size(), 0);
+// What matching needs, kept from scan to scan so that none is allocated.
+struct Workspace {
+  PlanarScan thinned;
+  std::vector<Kept> kept;
+  std::vector<int> hits;
+};
+
+// What the points' equations are off by, summed up: its covariance, and what is known of it. Lines
+// are means of a neighborhood: they lie behind what is round, and beside corners.
+struct MatchSpread {
+  Matrix3d B = Matrix3d::Zero();
+  Vector3d pull = Vector3d::Zero();
+};
+
+// The scan's noise and, through the surfels, the map's, carried to the pose; larger where residuals
+// are larger than noise explains. What a row of neighboring points asks for together is an error of
+// that thing: it does not average out (a covariance robust to clusters, Liang and Zeger 1986).
+MatchSpread spread_of(const LocalMap& map, const PlanarScan& scan, const Fit& fit, double noise,
+                      Workspace& workspace) {
+  std::vector<Kept>& kept = workspace.kept;
+  std::vector<int>& hits = workspace.hits;
+  assign_with_room(hits, map.surfels().size(), 0);
   const auto index = [&](const Surfel* surfel) {
     return static_cast<std::size_t>(surfel - map.surfels().data());
   };
   visit_pairs(map, scan, fit.pose, kLastDistance, kept,
               [&](const Pairing& pair) { ++hits[index(pair.surfel)]; });
-  Matrix3d B = Matrix3d::Zero();
+  MatchSpread spread;
+  Matrix3d of_noise = Matrix3d::Zero();
+  Vector3d force = Vector3d::Zero();
+  Vector2d last = Vector2d::Zero();
   visit_pairs(map, scan, fit.pose, kLastDistance, kept, [&](const Pairing& pair) {
-    // Points that share a surfel share its error: its noise, and what its surface is off a line.
-    const int points = hits[index(pair.surfel)];
-    const double curved = std::max(pair.surfel->roughness / (noise * noise) - 1.0, 0.0);
-    const double shared = points * (1.0 / pair.surfel->weight + curved);
-    equations(pair, [&](const Vector3d& J, double, double w) {
-      B.noalias() += (w * w * (1.0 + shared)) * J * J.transpose();
+    if ((pair.arm - last).squaredNorm() > kRunGap * kRunGap) {
+      spread.B += force * force.transpose();
+      force.setZero();
+    }
+    last = pair.arm;
+    // Points that share a surfel share its noise.
+    const double shared = hits[index(pair.surfel)] / pair.surfel->weight;
+    const double behind = pair.surfel->line_normal.dot(pair.surfel->p - pair.surfel->line_p);
+    equations(pair, [&](const Vector3d& J, double e, double w) {
+      of_noise.noalias() += (w * w * (1.0 + shared)) * J * J.transpose();
+      force += w * e * J;
+      spread.pull += w * behind * J;
     });
   });
   const double mean_square = fit.normal.weighted_squares / std::max(fit.normal.weight, 1e-9);
-  return B * std::max(noise * noise, mean_square);
+  spread.B += force * force.transpose() + of_noise * std::max(noise * noise, mean_square);
+  return spread;
 }
 
 void write_covariance(const Matrix3d& B, const Directions& told, const Matrix3d& guess,
@@ -327,12 +364,15 @@ ScanMatch without_match(const MatchGuess& guess, MatchStatus status) {
   return match;
 }
 
-PlanarScan thinned_scan(const PlanarScan& scan, int most) {
+// The scan or, in `some`, so many of its points.
+const PlanarScan& thinned_scan(const PlanarScan& scan, int most, PlanarScan& some) {
   const std::size_t stride =
       (scan.size() + static_cast<std::size_t>(most) - 1) / static_cast<std::size_t>(most);
-  PlanarScan some;
-  some.reserve(static_cast<std::size_t>(most));
-  for (std::size_t i = 0; i < scan.size(); i += std::max<std::size_t>(stride, 1)) {
+  if (stride <= 1) {
+    return scan;
+  }
+  some.clear();
+  for (std::size_t i = 0; i < scan.size(); i += stride) {
     some.push_back(scan[i]);
   }
   return some;
@@ -359,11 +399,12 @@ void check_match_options(const MatchOptions& options) {
 
 ScanMatch match_scan(const LocalMap& map, const PlanarScan& scan, const MatchGuess& guess,
                      std::span<const Pose2> starts, double noise, const MatchOptions& options) {
-  const PlanarScan thinned = thinned_scan(scan, options.max_points);
+  thread_local Workspace workspace;
+  const PlanarScan& thinned = thinned_scan(scan, options.max_points, workspace.thinned);
   if (thinned.size() < 3 || map.surfels().empty()) {
     return without_match(guess, MatchStatus::kTooFewPoints);
   }
-  Matcher matcher(map, thinned, guess, options);
+  Matcher matcher(map, thinned, guess, options, workspace.kept);
   Fit best = matcher.fit(guess.pose);
   int iterations = best.iterations;
   const auto consider = [&](const Pose2& start, double factor) {
@@ -400,10 +441,12 @@ ScanMatch match_scan(const LocalMap& map, const PlanarScan& scan, const MatchGue
       iterations += polished.iterations;
     }
     match.pose = best.pose;
-    match.pose.z() = wrap_angle(match.pose.z());
     match.status = best.converged ? MatchStatus::kConverged : MatchStatus::kIterationLimit;
-    write_covariance(spread_of(map, thinned, best, noise, matcher.kept()), told, guess.covariance,
-                     match);
+    const MatchSpread spread = spread_of(map, thinned, best, noise, workspace);
+    write_covariance(spread.B, told, guess.covariance, match);
+    match.drawn = told.step(spread.pull);
+    match.pose -= match.drawn;
+    match.pose.z() = wrap_angle(match.pose.z());
   }
   match.fitness = fitness;
   match.inliers = static_cast<double>(best.normal.inliers) / static_cast<double>(thinned.size());

@@ -49,10 +49,12 @@ class LaserOdometry {
   LaserOdometry(const Scanner& scanner, const LaserOdometryOptions& options);
 
   /// One scan that began at t, in s, later than the one before. `motion`: since then, as measured
-  /// by something else (wheels); else velocity is assumed constant. Throws InvalidArgument("t",
-  /// ...); the state is then as it was.
+  /// by something else (wheels); else velocity is assumed constant. `during`: while the scan was
+  /// made, as measured; else the mean twist since the scan before goes on. Throws
+  /// InvalidArgument("t", ...); the state is then as it was.
   LaserStep add(std::span<const double> ranges, double t,
-                const std::optional<PlanarEstimate>& motion);
+                const std::optional<PlanarEstimate>& motion,
+                const std::optional<ScanMotion>& during = std::nullopt);
 
   const Scanner& scanner() const noexcept { return scanner_; }
   const LaserOdometryOptions& options() const noexcept { return options_; }

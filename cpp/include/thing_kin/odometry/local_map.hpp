@@ -18,7 +18,6 @@ struct Surfel {
   /// The line of its surface here, a mean over the neighborhood; of a place, p and zero.
   Eigen::Vector2d line_p;
   Eigen::Vector2d line_normal;
-  double roughness = 0.0;  ///< m^2: of the neighborhood about the line
 
   bool is_surface() const noexcept { return !normal.isZero(0.0); }
 };

@@ -56,8 +56,18 @@ struct ScanPoint {
 /// error; none of them is a point.
 using PlanarScan = std::vector<ScanPoint>;
 
-/// out <- the points of a scan in the frame that the robot has at its first beam, while it moves
-/// with a constant twist. `out` keeps its memory.
+/// The robot's twist at the first beam and at the last; between them it changes evenly.
+struct ScanMotion {
+  Twist2 first = Twist2::Zero();
+  Twist2 last = Twist2::Zero();
+};
+
+/// out <- the points of a scan in the frame that the robot has at its first beam, while it moves.
+/// `out` keeps its memory.
+void read_scan(const Scanner& scanner, std::span<const double> ranges, const ScanMotion& motion,
+               PlanarScan& out);
+
+/// The same with a constant twist.
 void read_scan(const Scanner& scanner, std::span<const double> ranges, const Twist2& twist,
                PlanarScan& out);
 

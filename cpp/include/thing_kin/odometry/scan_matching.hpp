@@ -52,6 +52,9 @@ struct ScanMatch {
   int degenerate = 0;  ///< how many they are
   /// Takes the untold directions away from a small motion.
   Eigen::Matrix3d told = Eigen::Matrix3d::Zero();
+  /// What lines that lie behind round things, or beside corners, had drawn the fit by: already
+  /// taken back in `pose`.
+  Eigen::Vector3d drawn = Eigen::Vector3d::Zero();
   double fitness = 0.0;   ///< 0 to 1: how well the points agree with the map, on the mean
   double inliers = 0.0;   ///< share of the points that lie on the map
   double residual = 0.0;  ///< m, root mean square over the inliers
@@ -69,7 +72,8 @@ inline constexpr double kUntoldVariance = 1e4;
 /// Aligns a scan to a map, point to line (Censi 2008) under a robust loss (Geman and McClure), from
 /// each of the starts and, if no fit is good, from where a correlative search finds the scan
 /// (Olson 2009). The best fit is kept; fits that are far off the guess by its covariance count
-/// less. Directions that the scans don't tell stay as in the guess. `noise`: of a range, m.
+/// less. What the map's lines are known to draw it by is taken back, to first order. Directions
+/// that the scans don't tell stay as in the guess. `noise`: of a range, m.
 ScanMatch match_scan(const LocalMap& map, const PlanarScan& scan, const MatchGuess& guess,
                      std::span<const Pose2> starts, double noise, const MatchOptions& options);
 
