@@ -358,7 +358,7 @@ class LaserOdometry:
         ...
     def __repr__(self) -> str:
         ...
-    def add(self, ranges: numpy.typing.ArrayLike, *, t: typing.SupportsFloat | typing.SupportsIndex, motion: numpy.typing.ArrayLike | None = None, motion_covariance: numpy.typing.ArrayLike | None = None) -> LaserStep:
+    def add(self, ranges: numpy.typing.ArrayLike, *, t: typing.SupportsFloat | typing.SupportsIndex, motion: numpy.typing.ArrayLike | None = None, motion_covariance: numpy.typing.ArrayLike | None = None, twists: numpy.typing.ArrayLike | None = None) -> LaserStep:
         """
         Takes the next scan.
         
@@ -372,6 +372,10 @@ class LaserOdometry:
             Pose now as the robot before saw it, as wheels measured it; else velocity is taken as constant.
         motion_covariance : (3, 3), optional
             Of `motion`, in the axes of the robot before; default diag(0.05^2, 0.05^2, 0.1^2).
+        twists : (2, 3), m/s and rad/s, optional
+            Of the robot at the first beam and at the last, in its own axes; in between they change evenly.
+            Else the mean twist since the scan before is taken to go on, which is wrong for a slow scanner
+            (`scan_time`) on a robot that brakes.
         
         Returns
         -------
