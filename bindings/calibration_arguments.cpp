@@ -65,8 +65,13 @@ void read_poses(CalibrationData& data, const py::object& measured) {
 
 void read_places(CalibrationData& data, const py::object& measured) {
   const py::ssize_t k = data.per_posture();
-  const bool is_flat =
-      py::cast<py::ssize_t>(py::module_::import("numpy").attr("ndim")(measured)) < 3;
+  const py::tuple shape = py::module_::import("numpy").attr("shape")(measured);
+  const bool is_flat = shape.size() < 3;
+  if (shape.size() == 3 && shape[2].cast<py::ssize_t>() == 3 && shape[1].cast<py::ssize_t>() != k) {
+    throw InvalidArgument(
+        "points", std::to_string(k),
+        "as many as measured has of each posture, " + std::string(py::str(shape[1])));
+  }
   const std::vector<py::ssize_t> item =
       is_flat && k == 1 ? std::vector<py::ssize_t>{3} : std::vector<py::ssize_t>{k, 3};
   const Batch batch = read_rows(measured, "measured", item, data.postures(), Finite::kNo);

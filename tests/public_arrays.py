@@ -584,7 +584,8 @@ ARM_POSTURES = ARM.random(8, rng=0)
 ARM_POSES = ARM.fk(ARM_POSTURES)
 
 
-REFLECTORS = np.array([[0.05, 0.0, 0.1], [-0.03, 0.06, 0.12], [0.0, -0.05, 0.08]])
+# Two, so that they are not of a rotation's shape.
+REFLECTORS = np.array([[0.05, 0.0, 0.1], [-0.03, 0.06, 0.12]])
 SEEN_REFLECTORS = np.stack([(ARM_POSES @ [*p, 1.0])[:, :3] for p in REFLECTORS], axis=1)
 ROBOT_POSTURES = ROBOT.random(8, rng=0)
 ROBOT_POSES = ROBOT.fk(ROBOT_POSTURES)
