@@ -364,18 +364,18 @@ ScanMatch without_match(const MatchGuess& guess, MatchStatus status) {
   return match;
 }
 
-// The scan or, in `some`, so many of its points.
-const PlanarScan& thinned_scan(const PlanarScan& scan, int most, PlanarScan& some) {
+// Whether a scan has more points than `most`: so many of them are then in `some`.
+bool thin(const PlanarScan& scan, int most, PlanarScan& some) {
   const std::size_t stride =
       (scan.size() + static_cast<std::size_t>(most) - 1) / static_cast<std::size_t>(most);
   if (stride <= 1) {
-    return scan;
+    return false;
   }
   some.clear();
   for (std::size_t i = 0; i < scan.size(); i += stride) {
     some.push_back(scan[i]);
   }
-  return some;
+  return true;
 }
 
 }  // namespace
@@ -400,7 +400,8 @@ void check_match_options(const MatchOptions& options) {
 ScanMatch match_scan(const LocalMap& map, const PlanarScan& scan, const MatchGuess& guess,
                      std::span<const Pose2> starts, double noise, const MatchOptions& options) {
   thread_local Workspace workspace;
-  const PlanarScan& thinned = thinned_scan(scan, options.max_points, workspace.thinned);
+  const bool is_long = thin(scan, options.max_points, workspace.thinned);
+  const PlanarScan& thinned = is_long ? workspace.thinned : scan;
   if (thinned.size() < 3 || map.surfels().empty()) {
     return without_match(guess, MatchStatus::kTooFewPoints);
   }

@@ -5,20 +5,17 @@ namespace thing_kin::THING_KIN_LEVEL {
 /// Six numbers side by side, padded by zeros: in as many registers as it takes. (One vector of 64
 /// bytes for all would live in memory where registers are shorter.)
 struct Six {
-  static constexpr int kWide = THING_KIN_LANES < 4 ? THING_KIN_LANES : 4;
+#if THING_KIN_LANES >= 4
+  static constexpr int kWide = 4;
+#else
+  static constexpr int kWide = 2;
+#endif
   static constexpr int kParts = (6 + kWide - 1) / kWide;
-  typedef double Part __attribute__((vector_size(8 * kWide)));
+  using Part = double __attribute__((vector_size(8 * kWide)));
 
   Part part[kParts];
 
   Six() = default;
-  // Register by register: as a piece of memory it would be copied eight bytes at a time.
-  Six(const Six& other) { copy(other); }
-  Six& operator=(const Six& other) {
-    copy(other);
-    return *this;
-  }
-  ~Six() = default;
   Six(double a, double b, double c, double d, double e, double f) : part{} {
     const double numbers[] = {a, b, c, d, e, f};
     for (int i = 0; i < 6; ++i) {
@@ -48,18 +45,12 @@ struct Six {
 
  private:
   template <typename Function>
-  [[gnu::always_inline]] static inline Six each(Function function) {
+  [[gnu::always_inline]] static Six each(Function function) {
     Six result;
     for (int i = 0; i < kParts; ++i) {
       result.part[i] = function(i);
     }
     return result;
-  }
-
-  [[gnu::always_inline]] inline void copy(const Six& other) {
-    for (int i = 0; i < kParts; ++i) {
-      part[i] = other.part[i];
-    }
   }
 };
 
@@ -104,11 +95,11 @@ struct Spectrum {
   // that columns stay in registers.
   template <int k>
   [[gnu::always_inline]] void reflect(Six A[6]) {
-    const Six kBelow{
-        0.0, k < 1 ? 1.0 : 0.0, k < 2 ? 1.0 : 0.0, k < 3 ? 1.0 : 0.0, k < 4 ? 1.0 : 0.0, 1.0};
-    const Six kBeside{
+    const Six below{0.0, k < 1 ? 1.0 : 0.0, k < 2 ? 1.0 : 0.0, k < 3 ? 1.0 : 0.0, k < 4 ? 1.0 : 0.0,
+                    1.0};
+    const Six beside{
         0.0, k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0, k == 3 ? 1.0 : 0.0, 0.0};
-    Six v = A[k] * kBelow;
+    Six v = A[k] * below;
     const double first = v[k + 1];
     const double square = sum_of(v * v);
     if (!(square - first * first > 0.0)) {
@@ -116,7 +107,7 @@ struct Spectrum {
     }
     const double norm = __builtin_sqrt(square);
     const double shift = first > 0.0 ? norm : -norm;
-    v += shift * kBeside;
+    v += shift * beside;
     const double beta = 1.0 / (square + shift * first);
     Six p{};
     Six along{};
