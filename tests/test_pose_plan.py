@@ -75,6 +75,17 @@ def test_the_best_of_all_agrees_with_many_local_searches() -> None:
     assert within >= 14
 
 
+def test_the_best_samples_come_first() -> None:
+    rng = np.random.default_rng(14)
+    near_best = 0
+    for _ in range(30):
+        case = draw(rng)
+        few = case.solve(case.far, search="global", descents=3)
+        best = case.solve(case.far, search="global")
+        near_best += few.objective <= 1.01 * best.objective
+    assert near_best >= 25  # 28; 10 where the worst come first
+
+
 def test_the_users_example() -> None:
     wall = tk.Disc(center=(0.6, 0.6), radius=0.4)
     options = {**DISC, "heading": (-np.pi / 4, np.pi / 4), "obstacles": [wall]}
