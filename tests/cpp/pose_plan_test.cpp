@@ -124,6 +124,28 @@ TEST(PosePlan, TheBestOfAllIsNoWorse) {
   }
 }
 
+// Inverse kinematics stalls at some seeds: the search over all goes on from its samples.
+TEST(PosePlan, GlobalSearchDoesWithoutAnArrivalFromTheSeed) {
+  const Chain robot = robots::thing();
+  Generator rng(24);
+  int stalled = 0;
+  for (int i = 0; i < 200; ++i) {
+    Instance instance = random_instance(robot, rng);
+    instance.options.max_restarts = 0;
+    const PosePlanner local(robot, robot.tool(), instance.options, {}, instance.obstacles);
+    if (local.solve(instance.target, instance.seed.data()).position_error < 1e-3) {
+      continue;
+    }
+    ++stalled;
+    instance.options.global = true;
+    const PosePlanner planner(robot, robot.tool(), instance.options, {}, instance.obstacles);
+    const PosePlan best = planner.solve(instance.target, instance.seed.data());
+    ASSERT_TRUE(best.success()) << i << ": " << message(planner, best);
+    expect_feasible(robot, instance, best.q);
+  }
+  EXPECT_GT(stalled, 0);
+}
+
 // One step from a feasible seed: what is found is feasible, and said to be no more than that.
 TEST(PosePlan, FeasibleIsNotConverged) {
   const Chain robot = robots::thing();

@@ -104,8 +104,9 @@ bool PoseSearch::is_apart(const JointVector& q) const {
 }
 
 void PoseSearch::search_all() {
-  try_from(seed_);
-  visited_.push_back(descent_.point().q);
+  if (try_from(seed_)) {
+    visited_.push_back(descent_.point().q);
+  }
   const std::vector<Candidate> candidates = sample();
   for (const Candidate& candidate : candidates) {
     if (best_.restarts >= planner_.options_.descents && rank_.kind == Kind::kOptimum) {
@@ -113,7 +114,7 @@ void PoseSearch::search_all() {
     }
     const JointVector q =
         Eigen::Map<const Eigen::VectorXd>(&samples_[candidate.first], seed_.size());
-    if (is_apart(q)) {
+    if (rank_.kind != Kind::kOptimum || is_apart(q)) {
       ++best_.restarts;
       visited_.push_back(q);
       if (try_from(q)) {
