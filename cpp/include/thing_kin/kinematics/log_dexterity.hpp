@@ -43,7 +43,7 @@ bool log_dexterity_along(const Chain& chain, const Jacobian& J, const SmallMatri
 /// The value alone.
 double log_dexterity(const Jacobian& J, const double* column_weights) noexcept;
 
-/// At least the value, and less than log(6)/16 = 0.112 above it (some hundredths as a rule), at a
+/// At least the value, and at most log(6)/16 = 0.112 above it (some hundredths as a rule), at a
 /// fraction of the cost: to rank many configurations. With the traces of A^8 and A^-8 in place of
 /// l_1^8 and l_6^-8.
 double log_dexterity_bound(const Jacobian& J, const double* column_weights) noexcept;

@@ -71,7 +71,7 @@ struct Kernels {
   void (*dexterity_spectrum)(const DexterityArguments& arguments, double* values) noexcept;
 
   /// The values alone, with a bound from above and one from below for the largest and the smallest:
-  /// less than the factor 6^(1/8) off.
+  /// at most the factor 6^(1/8) off.
   void (*dexterity_bounds)(const DexterityArguments& arguments, double* values) noexcept;
 
   /// Angles of `count` pairs.
