@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
-
-#include <Eigen/Eigenvalues>
 
 #include "thing_kin/kinematics/pose_curvature.hpp"
 
@@ -36,11 +33,6 @@ constexpr double kEnlarge = 0.7;
 // A descent is given up if this many times the gain of Newton's step would not make it the best.
 constexpr double kHope = 4.0;
 
-// Curvature below this fraction of the largest is taken for it, so that the program is convex.
-constexpr double kLeastCurvature = 1e-6;
-
-constexpr double kFirstPenalty = 5.0;
-
 // At its end a descent has the hand at the target within this, m and rad.
 constexpr double kOnTarget = 1e-11;
 constexpr int kMostReturns = 12;
@@ -54,25 +46,6 @@ constexpr double kLargestMiss = 1e-3;
 constexpr double kViolationPrice = 10.0;
 
 double on_target(const SE3& target) { return kOnTarget * (1.0 + target.translation.norm()); }
-
-template <typename Matrix>
-Matrix with_sizes_of_curvature(const Matrix& H) noexcept {
-  const Eigen::Index k = H.rows();
-  // Loops, and the solver in two steps: GCC 12 takes Eigen's own for reading what is not set.
-  Eigen::SelfAdjointEigenSolver<Matrix> solver(k);
-  solver.compute(H);
-  double largest = 0.0;
-  for (Eigen::Index i = 0; i < k; ++i) {
-    largest = std::max(largest, std::abs(solver.eigenvalues()[i]));
-  }
-  const double least = std::max(kLeastCurvature * largest, 1e-12);
-  Matrix sum = Matrix::Zero(k, k);
-  for (Eigen::Index i = 0; i < k; ++i) {
-    const auto v = solver.eigenvectors().col(i);
-    sum += std::max(std::abs(solver.eigenvalues()[i]), least) * v * v.transpose();
-  }
-  return sum;
-}
 
 IkProblem make_ik(const PosePlanner& planner, const JointBox& box, const Reach& reach,
                   const SE3& target) {
@@ -89,19 +62,18 @@ IkProblem make_ik(const PosePlanner& planner, const JointBox& box, const Reach& 
 
 }  // namespace
 
+// How many inequalities: the base's disc, if there is one, and the clearances.
+int PoseDescent::slacks(const PosePlanner& planner) noexcept {
+  return planner.clearances_.size() + (planner.options_.base_goal ? 1 : 0);
+}
+
 PoseDescent::PoseDescent(const PosePlanner& planner, const SE3& target)
-    : planner_(planner), ik_(make_ik(planner, planner.box_, planner.reach_, target)) {
-  const int n = planner.chain_.dof();
-  const int count = planner.clearances_.size() + (planner.options_.base_goal ? 1 : 0);
+    : planner_(planner),
+      ik_(make_ik(planner, planner.box_, planner.reach_, target)),
+      program_(planner.chain_.dof(), slacks(planner)) {
   for (PosePoint* point : {here_, there_}) {
-    point->slack.resize(count);
+    point->slack.resize(slacks(planner));
   }
-  forms_.resize(n, n + count + 1);
-  lower_.resize(n + count + 1);
-  upper_.resize(n + count + 1);
-  mu_.resize(count);
-  inequalities_.reserve(static_cast<std::size_t>(count));
-  gradients_.resize(static_cast<std::size_t>(count));
 }
 
 // The base's disc as (R^2 - d^2)/(2 R), which has derivatives at its middle too and at its rim the
@@ -189,39 +161,38 @@ bool PoseDescent::evaluate(PosePoint& point) const noexcept {
 }
 
 bool PoseDescent::begin(const JointVector& q) noexcept {
-  mu_.setZero();
-  nu_ = JointVector::Zero(q.size());
+  program_.begin();
   radius_ = kFirstRadius;
-  penalty_ = kFirstPenalty;
   return bring(q, kMostArrivals, kLargestMiss, *here_) && derive(*here_);
 }
 
 // What the inequalities of the step before add to the Lagrangian: their pull, and their curvature
 // along Z.
-void PoseDescent::add_inequalities(JointVector& pull) noexcept {
-  if (!(mu_.array() > 0.0).any()) {
+void PoseDescent::add_inequalities(JointVector& pull, SmallMatrix& H) noexcept {
+  const Eigen::VectorXd& mu = program_.of_inequalities();
+  if (!(mu.array() > 0.0).any()) {
     return;
   }
   const int first = planner_.options_.base_goal ? 1 : 0;
   SmallMatrix W = SmallMatrix::Zero(pull.size(), pull.size());
   JointVector along;
-  for (int i = 0; i < static_cast<int>(mu_.size()); ++i) {
-    if (!(mu_[i] > 0.0)) {
+  for (int i = 0; i < static_cast<int>(mu.size()); ++i) {
+    if (!(mu[i] > 0.0)) {
       continue;
     }
     slack_gradient(*here_, i, along);
-    pull -= mu_[i] * along;
+    pull -= mu[i] * along;
     if (i < first) {
       const auto& base = *planner_.chain_.base_joints();
-      W(base[0], base[0]) += mu_[i] / planner_.options_.base_radius;
-      W(base[1], base[1]) += mu_[i] / planner_.options_.base_radius;
+      W(base[0], base[0]) += mu[i] / planner_.options_.base_radius;
+      W(base[1], base[1]) += mu[i] / planner_.options_.base_radius;
     } else {
-      planner_.clearances_.add_hessian(here_->posture, here_->q.data(), i - first, -mu_[i], W);
+      planner_.clearances_.add_hessian(here_->posture, here_->q.data(), i - first, -mu[i], W);
     }
   }
   // Small: coefficient by coefficient is quicker than by blocks.
   const SmallMatrix WZ = W.lazyProduct(here_->Z);
-  H_ += here_->Z.transpose().lazyProduct(WZ);
+  H += here_->Z.transpose().lazyProduct(WZ);
 }
 
 // The way back to the target, which every step takes, and the Lagrangian's gradient and Hessian in
@@ -229,14 +200,14 @@ void PoseDescent::add_inequalities(JointVector& pull) noexcept {
 // inequalities of the step before.
 void PoseDescent::reduce() noexcept {
   const JointVector& gradient = here_->objective.gradient;
-  g_.noalias() = here_->Z.transpose().lazyProduct(gradient);
-  H_ = here_->objective.hessian;
-  JointVector pull = gradient - nu_;
-  add_inequalities(pull);
+  SmallMatrix H = here_->objective.hessian;
+  JointVector pull = gradient - program_.of_sides();
+  add_inequalities(pull, H);
   here_->rows.apply_q_transposed(pull.data());
   lambda_ = pull.head<6>();
   here_->rows.solve_r(lambda_.data());
-  add_pose_curvature_along(planner_.chain_, here_->J, -lambda_, here_->Z, H_);
+  add_pose_curvature_along(planner_.chain_, here_->J, -lambda_, here_->Z, H);
+  program_.reset(here_->Z, H, here_->Z.transpose().lazyProduct(gradient));
   Vector6 back = here_->miss;
   here_->rows.solve_r_transposed(back.data());
   back_.resize(gradient.size());
@@ -245,155 +216,22 @@ void PoseDescent::reduce() noexcept {
 
 // What each joint may do within its sides and the trust region, and what inequalities may come into
 // play. An endless joint has no sides: it goes on at the other end.
-void PoseDescent::collect_forms() noexcept {
+void PoseDescent::bound() noexcept {
   const Eigen::Index n = here_->q.size();
-  const Eigen::Index k = here_->Z.cols();
-  forms_.topLeftCorner(k, n) = here_->Z.transpose();
   for (Eigen::Index j = 0; j < n; ++j) {
     const bool endless = ik_.box.is_endless(j);
     const double from = here_->q[j] + back_[j];
-    lower_[j] = endless ? -radius_ : std::max(-radius_, ik_.box.lower(j) - from);
-    upper_[j] = endless ? radius_ : std::min(radius_, ik_.box.upper(j) - from);
+    program_.bound(j, endless ? -radius_ : std::max(-radius_, ik_.box.lower(j) - from),
+                   endless ? radius_ : std::min(radius_, ik_.box.upper(j) - from));
   }
-  inequalities_.clear();
   const double way = radius_ * std::sqrt(static_cast<double>(n));
-  for (int i = 0; i < static_cast<int>(mu_.size()); ++i) {
-    const std::size_t place = inequalities_.size();
-    JointVector& along = gradients_[place];
+  JointVector along;
+  for (int i = 0; i < static_cast<int>(here_->slack.size()); ++i) {
     const double slack = slack_gradient(*here_, i, along) + along.dot(back_);
-    if (slack > way * along.norm()) {
-      continue;
-    }
-    const Eigen::Index column = n + static_cast<Eigen::Index>(place);
-    forms_.col(column).head(k).noalias() = here_->Z.transpose() * along;
-    lower_[column] = -slack;
-    upper_[column] = std::numeric_limits<double>::infinity();
-    inequalities_.push_back(i);
-  }
-}
-
-// Curvature across sides that were active in the last step costs nothing if they hold again, and
-// may be all that is missing to convexity: |a . z - b|^2 vanishes on them.
-bool PoseDescent::stiffen(const FormsView& forms) noexcept {
-  const double stiffness = 10.0 * H_.cwiseAbs().maxCoeff();
-  const auto n = static_cast<int>(here_->q.size());
-  SmallMatrix H = H_;
-  SmallVector g = g_;
-  int count = 0;
-  const auto add = [&](int form, double bound) {
-    const auto a = forms.col(form);
-    const double weight = stiffness / std::max(a.squaredNorm(), kLeastCurvature);
-    H += weight * a * a.transpose();
-    g -= weight * bound * a;
-    stiffened_[static_cast<std::size_t>(count++)] = form;
-  };
-  for (int j = 0; j < n && count < kMaxDof; ++j) {
-    if (nu_[j] != 0.0) {
-      add(j, nu_[j] > 0.0 ? lower_[j] : upper_[j]);
+    if (slack <= way * along.norm()) {
+      program_.add(i, slack, here_->Z, along);
     }
   }
-  for (int i = 0; std::cmp_less(i, inequalities_.size()) && count < kMaxDof; ++i) {
-    if (mu_[inequalities_[static_cast<std::size_t>(i)]] > 0.0) {
-      add(n + i, lower_[n + i]);
-    }
-  }
-  if (count == 0 ||
-      qp_.minimize(H, g, forms, lower_.data(), upper_.data()) != ConvexQp::Status::kOptimal) {
-    return false;
-  }
-  return std::all_of(stiffened_.begin(), std::next(stiffened_.begin(), count),
-                     [&](int form) { return qp_.holds(form); });
-}
-
-// The Hessian with the size of each curvature instead of itself.
-void PoseDescent::convexify() noexcept {
-  if (H_.rows() == 3) {  // most robots: a size that the compiler knows is three times as fast
-    H_ = with_sizes_of_curvature<Eigen::Matrix3d>(H_);
-  } else {
-    H_ = with_sizes_of_curvature<SmallMatrix>(H_);
-  }
-}
-
-// The quadratic program, made convex if it is not.
-bool PoseDescent::minimize() noexcept {
-  const Eigen::Index k = here_->Z.cols();
-  const Eigen::Index count = here_->q.size() + static_cast<Eigen::Index>(inequalities_.size());
-  const auto forms = forms_.topLeftCorner(k, count);
-  ConvexQp::Status status = qp_.minimize(H_, g_, forms, lower_.data(), upper_.data());
-  exact_ = status != ConvexQp::Status::kNotConvex;
-  if (!exact_ && stiffen(forms)) {
-    exact_ = true;
-    status = ConvexQp::Status::kOptimal;
-  } else if (!exact_) {
-    convexify();
-    status = qp_.minimize(H_, g_, forms, lower_.data(), upper_.data());
-  }
-  if (status == ConvexQp::Status::kOptimal) {
-    z_ = qp_.x();
-    remember_multipliers();
-    return true;
-  }
-  return status == ConvexQp::Status::kInfeasible && relax();
-}
-
-// Where no step keeps all inequalities: one more variable t >= 0 that they may all fall short by,
-// at a price.
-bool PoseDescent::relax() noexcept {
-  const Eigen::Index n = here_->q.size();
-  const Eigen::Index k = here_->Z.cols();
-  const Eigen::Index count = n + static_cast<Eigen::Index>(inequalities_.size());
-  if (k + 1 > kMaxDof || k + 1 > forms_.rows()) {
-    return false;
-  }
-  SmallMatrix H = SmallMatrix::Zero(k + 1, k + 1);
-  H.topLeftCorner(k, k) = H_;
-  const double price = std::max(10.0 * penalty_, 100.0 * (1.0 + g_.cwiseAbs().maxCoeff()));
-  H(k, k) = 1e-3 * price;
-  SmallVector g(k + 1);
-  g << g_, price;
-  forms_.row(k).head(n).setZero();
-  forms_.row(k).segment(n, count - n).setOnes();
-  forms_.col(count).head(k).setZero();
-  forms_(k, count) = 1.0;
-  lower_[count] = 0.0;
-  upper_[count] = std::numeric_limits<double>::infinity();
-  const auto forms = forms_.topLeftCorner(k + 1, count + 1);
-  if (qp_.minimize(H, g, forms, lower_.data(), upper_.data()) != ConvexQp::Status::kOptimal) {
-    return false;
-  }
-  z_ = qp_.x().head(k);
-  exact_ = false;
-  remember_multipliers();
-  return true;
-}
-
-void PoseDescent::remember_multipliers() noexcept {
-  const auto n = static_cast<int>(here_->q.size());
-  mu_.setZero();
-  nu_.setZero();
-  for (int i = 0; i < qp_.active(); ++i) {
-    const ConvexQp::Active active = qp_[i];
-    const auto beyond = static_cast<std::size_t>(active.form - n);
-    if (active.form < n) {
-      nu_[active.form] = active.multiplier;
-    } else if (beyond < inequalities_.size()) {
-      mu_[inequalities_[beyond]] = active.multiplier;
-    }
-  }
-  // Powell (1978): a multiplier that was large for one step does not hold up all later ones.
-  const double needed = 1.5 * mu_.sum();
-  penalty_ = std::max({kFirstPenalty, needed, 0.5 * (penalty_ + needed)});
-}
-
-double PoseDescent::predicted_violation() const noexcept {
-  double sum = 0.0;
-  const Eigen::Index n = here_->q.size();
-  for (std::size_t i = 0; i < inequalities_.size(); ++i) {
-    const Eigen::Index column = n + static_cast<Eigen::Index>(i);
-    const double along = forms_.col(column).head(z_.size()).dot(z_);
-    sum += std::max(0.0, lower_[column] - along);
-  }
-  return sum;
 }
 
 bool PoseDescent::misses() const noexcept {
@@ -403,13 +241,13 @@ bool PoseDescent::misses() const noexcept {
 
 // How far from the target a step of so much gain may end.
 double PoseDescent::loose_tolerance(double gain) const noexcept {
-  const double price = 1.0 + lambda_.cwiseAbs().maxCoeff() + penalty_;
+  const double price = 1.0 + lambda_.cwiseAbs().maxCoeff() + program_.penalty();
   return std::clamp(kMissWorth * gain / price, on_target(ik_.residual.target()), kLargestMiss);
 }
 
 // A step after which nothing is left to gain: the hand goes to the target, and no derivatives are
-// needed. kTaken: it is not the last after all.
-PoseDescent::Step PoseDescent::finish(const JointVector& q, double length) noexcept {
+// needed. Nothing: it is not the last after all.
+std::optional<PoseDescent::Step> PoseDescent::finish(const JointVector& q, double length) noexcept {
   if (!bring(q, kMostReturns, on_target(ik_.residual.target()), *there_)) {
     radius_ = 0.25 * length;
     return Step::kRefused;
@@ -418,7 +256,7 @@ PoseDescent::Step PoseDescent::finish(const JointVector& q, double length) noexc
     std::swap(here_, there_);
     return Step::kLast;
   }
-  return Step::kTaken;
+  return std::nullopt;
 }
 
 // The end of a descent that did not end by finish().
@@ -435,20 +273,21 @@ bool PoseDescent::settle() noexcept {
 
 PoseDescent::Step PoseDescent::step(double best) noexcept {
   reduce();
-  collect_forms();
-  if (!minimize()) {
+  bound();
+  if (!program_.minimize()) {
     return Step::kStuck;
   }
-  const JointVector dq = here_->Z.lazyProduct(z_);  // beside back_
+  const bool exact = program_.is_exact();
+  const double penalty = program_.penalty();
+  const JointVector dq = here_->Z.lazyProduct(program_.z());  // beside back_
   const double length = dq.cwiseAbs().maxCoeff();
-  const double gain =
-      -(g_.dot(z_) + 0.5 * z_.dot(H_ * z_)) + penalty_ * (here_->violation - predicted_violation());
+  const double gain = program_.gain() + penalty * (here_->violation - program_.violation());
   const bool feasible = is_feasible();
   const bool done = length <= kNoStep || (feasible && gain <= kLeastGain);
-  if (done && !(exact_ && misses())) {
+  if (done && !(exact && misses())) {
     return Step::kLast;
   }
-  if (exact_ && length < 0.9 * radius_ && here_->objective.value - kHope * gain > best) {
+  if (exact && length < 0.9 * radius_ && here_->objective.value - kHope * gain > best) {
     return Step::kStuck;
   }
   JointVector q = here_->q + back_ + dq;
@@ -456,10 +295,9 @@ PoseDescent::Step PoseDescent::step(double best) noexcept {
     q[j] = ik_.box.inside(j, q[j]);
   }
   const bool last = length <= kLastStep || (feasible && gain <= kLastGain);
-  if (exact_ && last && length < 0.9 * radius_) {
-    const Step outcome = finish(q, length);
-    if (outcome != Step::kTaken) {
-      return outcome;
+  if (exact && last && length < 0.9 * radius_) {
+    if (const std::optional<Step> outcome = finish(q, length)) {
+      return *outcome;
     }
   } else if (!bring(q, kMostReturns, loose_tolerance(gain), *there_)) {
     radius_ = 0.25 * length;
@@ -472,7 +310,7 @@ PoseDescent::Step PoseDescent::step(double best) noexcept {
   // What is missed to the target costs what its multipliers say.
   const double came = here_->objective.value - there_->objective.value +
                       lambda_.dot(here_->miss - there_->miss) +
-                      penalty_ * (here_->violation - there_->violation);
+                      penalty * (here_->violation - there_->violation);
   if (!(came >= kAccept * gain)) {
     radius_ = 0.3 * length;
     return Step::kRefused;

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
-#include <vector>
+#include <optional>
 
+#include "pose_program.hpp"
 #include "thing_kin/inverse/ik_descent.hpp"
 #include "thing_kin/kinematics/log_dexterity.hpp"
-#include "thing_kin/linalg/convex_qp.hpp"
 #include "thing_kin/linalg/row_qr.hpp"
 #include "thing_kin/optimization/pose_plan.hpp"
 
@@ -61,6 +62,7 @@ class PoseDescent {
  private:
   enum class Step : std::uint8_t { kTaken, kRefused, kLast, kStuck };
 
+  static int slacks(const PosePlanner& planner) noexcept;
   bool bring(const JointVector& q, int most, double tolerance, PosePoint& point) noexcept;
   bool derive(PosePoint& point) const noexcept;
   bool evaluate(PosePoint& point) const noexcept;
@@ -68,18 +70,12 @@ class PoseDescent {
   bool misses() const noexcept;
   void measure(PosePoint& point) const noexcept;
   double slack_gradient(const PosePoint& point, int i, JointVector& gradient) const noexcept;
-  void add_inequalities(JointVector& pull) noexcept;
+  void add_inequalities(JointVector& pull, SmallMatrix& H) noexcept;
   void reduce() noexcept;
-  void collect_forms() noexcept;
-  bool minimize() noexcept;
-  bool stiffen(const FormsView& forms) noexcept;
-  void convexify() noexcept;
-  bool relax() noexcept;
-  void remember_multipliers() noexcept;
+  void bound() noexcept;
   Step step(double best) noexcept;
-  Step finish(const JointVector& q, double length) noexcept;
+  std::optional<Step> finish(const JointVector& q, double length) noexcept;
   double loose_tolerance(double gain) const noexcept;
-  double predicted_violation() const noexcept;
 
   const PosePlanner& planner_;
   IkProblem ik_;
@@ -90,22 +86,10 @@ class PoseDescent {
   JointVector nearest_;
   double nearest_cost_ = std::numeric_limits<double>::infinity();
 
-  // The quadratic program of a step: z in the null space of J.
-  SmallMatrix H_;
-  SmallVector g_, z_;
-  bool exact_ = true;  // H is the Lagrangian's own Hessian
-  ConvexQp qp_;
-  Eigen::MatrixXd forms_;
-  Eigen::VectorXd lower_, upper_;
-  std::vector<int> inequalities_;       // of forms beyond the joints': which slack
-  std::vector<JointVector> gradients_;  // of them
-  std::array<int, kMaxDof> stiffened_;
-  Eigen::VectorXd mu_;  // of all slacks
-  JointVector nu_;      // of the joints' sides
-  Vector6 lambda_;      // of the pose
-  JointVector back_;    // the shortest way to the target
+  PoseProgram program_;  // of a step
+  Vector6 lambda_;       // of the pose
+  JointVector back_;     // the shortest way to the target
   double radius_ = 0.0;
-  double penalty_ = 0.0;
 };
 
 }  // namespace thing_kin
