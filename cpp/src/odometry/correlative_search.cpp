@@ -29,18 +29,26 @@ constexpr double kLeastShareOfBest = 0.6;
 constexpr double kApart = 0.3;
 constexpr double kApartTurn = 0.15;
 
+// Row by row.
+using Bytes = std::vector<std::uint8_t>;
+
 // Likelihoods as bytes; level l holds in each cell the largest of 2^l x 2^l cells from it on.
 class LikelihoodGrid {
  public:
-  LikelihoodGrid(const LocalMap& map, const Vector2d& center, double radius)
+  // Megabytes that are not worth having anew for each search.
+  using Memory = std::array<Bytes, kLevels>;
+
+  LikelihoodGrid(const LocalMap& map, const Vector2d& center, double radius, Memory& memory)
       : origin_(center - Vector2d::Constant(radius)),
-        side_(static_cast<int>(2.0 * radius / kResolution) + 1) {
+        side_(static_cast<int>(2.0 * radius / kResolution) + 1),
+        levels_(memory) {
     levels_[0].assign(cells(), 0);
     for (const Surfel& surfel : map.surfels()) {
       spread((surfel.p - origin_) / kResolution);
     }
     for (std::size_t l = 1; l < kLevels; ++l) {
-      pool(levels_[l - 1], 1 << (l - 1), levels_[l]);
+      levels_[l].resize(cells());
+      pool(levels_[l - 1].data(), 1 << (l - 1), levels_[l].data());
     }
   }
 
@@ -94,26 +102,25 @@ class LikelihoodGrid {
     }
   }
 
-  void pool(const std::vector<std::uint8_t>& fine, int step, std::vector<std::uint8_t>& out) const {
-    const auto side = static_cast<std::size_t>(side_);
-    const auto ahead = static_cast<std::size_t>(step);
-    out = fine;
-    for (std::size_t y = 0; y < side; ++y) {
-      for (std::size_t x = 0; x + ahead < side; ++x) {
-        out[y * side + x] = std::max(fine[y * side + x], fine[y * side + x + ahead]);
+  // Each cell's largest and those `step` ahead of it, as far as there are cells.
+  void pool(const std::uint8_t* fine, int step, std::uint8_t* __restrict out) const {
+    for (int y = 0; y < side_; ++y) {
+      const std::uint8_t* own = fine + y * side_;
+      const std::uint8_t* ahead = y + step < side_ ? own + step * side_ : own;
+      std::uint8_t* __restrict row = out + y * side_;
+      const int inside = side_ - step;
+      for (int x = 0; x < inside; ++x) {
+        row[x] = std::max(std::max(own[x], own[x + step]), std::max(ahead[x], ahead[x + step]));
       }
-    }
-    // Rows upwards: each is read before it is written.
-    for (std::size_t y = 0; y + ahead < side; ++y) {
-      for (std::size_t x = 0; x < side; ++x) {
-        out[y * side + x] = std::max(out[y * side + x], out[(y + ahead) * side + x]);
+      for (int x = std::max(inside, 0); x < side_; ++x) {
+        row[x] = std::max(own[x], ahead[x]);
       }
     }
   }
 
   Vector2d origin_;
   int side_;
-  std::array<std::vector<std::uint8_t>, kLevels> levels_;
+  Memory& levels_;
 };
 
 struct Node {
@@ -165,7 +172,8 @@ std::vector<SearchCandidate> correlative_search(const LocalMap& map, const Plana
   }
   const Pose2& center = window.center;
   // The coarsest cells reach 0.75 m beyond a move.
-  const LikelihoodGrid grid(map, center.head<2>(), farthest + window.translation + 1.0);
+  thread_local LikelihoodGrid::Memory memory;
+  const LikelihoodGrid grid(map, center.head<2>(), farthest + window.translation + 1.0, memory);
   const int turns = static_cast<int>(window.rotation / kTurn);
   const int reach = static_cast<int>(window.translation / kResolution);
   std::vector<std::int32_t> turned;
