@@ -40,9 +40,6 @@ double squared_gap(std::int32_t further, double inside) noexcept {
   return further == 0 ? 0.0 : gap * gap;
 }
 
-// 0, -1, 1, -2, 2, ...: cells from the own one outwards.
-std::int32_t outwards(std::int32_t n) noexcept { return n % 2 == 0 ? n / 2 : -(n + 1) / 2; }
-
 }  // namespace
 
 std::size_t LocalMap::entry_of(std::int32_t x, std::int32_t y) const noexcept {
@@ -149,6 +146,7 @@ std::int32_t LocalMap::mergeable(const Vector2d& p, const Vector2d& normal) cons
 
 void LocalMap::insert(const PlanarScan& scan, const Pose2& pose, double clock) {
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(pose.z()).toRotationMatrix();
+  const bool is_new = surfels_.empty();
   for (const ScanPoint& point : scan) {
     if (point.surroundings == Surroundings::kSparse) {
       continue;
@@ -179,11 +177,18 @@ void LocalMap::insert(const PlanarScan& scan, const Pose2& pose, double clock) {
     entries_[static_cast<std::size_t>(known)].normal = surfel.normal;
     changed_.push_back(known);
   }
-  draw_lines();
+  draw_lines(is_new);
 }
 
-// Of all surfels whose neighborhood has changed.
-void LocalMap::draw_lines() {
+// Of all surfels, or of those whose neighborhood has changed.
+void LocalMap::draw_lines(bool all) {
+  if (all) {
+    changed_.clear();
+    for (Surfel& surfel : surfels_) {
+      draw_line(surfel);
+    }
+    return;
+  }
   stale_.reserve(surfels_.capacity());
   stale_.assign(surfels_.size(), 0);
   for (const std::int32_t k : changed_) {
@@ -243,8 +248,8 @@ void LocalMap::draw_line(Surfel& surfel) const noexcept {
   }
 }
 
-// Surfels that a point with this normal may lie on, of the own cell first, then outwards; the
-// visitor draws the bound in, and cells beyond are left out.
+// Surfels that a point with this normal may lie on, of the own cell first; the visitor draws the
+// bound in, and cells beyond are left out.
 template <typename Visit>
 void LocalMap::visit_facing(const Vector2d& p, const Vector2d& normal, const double& bound2,
                             Visit&& visit) const noexcept {
@@ -252,26 +257,31 @@ void LocalMap::visit_facing(const Vector2d& p, const Vector2d& normal, const dou
     return;
   }
   const bool surface = !normal.isZero(0.0);
+  const auto visit_cell = [&](std::int32_t x, std::int32_t y) {
+    for (std::int32_t k = first_of(x, y); k >= 0;) {
+      const Entry& entry = entries_[static_cast<std::size_t>(k)];
+      const double distance2 = (entry.p - p).squaredNorm();
+      if (distance2 < bound2 &&
+          (!surface || (entry.is_surface() && entry.normal.dot(normal) >= kSameSide))) {
+        visit(k, distance2);
+      }
+      k = entry.next;
+    }
+  };
   const std::int32_t x = cell_of(p.x());
   const std::int32_t y = cell_of(p.y());
+  visit_cell(x, y);
+  const double reach = std::sqrt(bound2);
   const Vector2d inside(p.x() - x * kCell, p.y() - y * kCell);
-  const std::int32_t cells = 2 * (cell_of(std::sqrt(bound2)) + 1) + 1;
-  for (std::int32_t i = 0; i < cells; ++i) {
-    const std::int32_t column = outwards(i);
+  const std::int32_t left = cell_of(p.x() - reach) - x;
+  const std::int32_t right = cell_of(p.x() + reach) - x;
+  const std::int32_t below = cell_of(p.y() - reach) - y;
+  const std::int32_t above = cell_of(p.y() + reach) - y;
+  for (std::int32_t column = left; column <= right; ++column) {
     const double gap_x2 = squared_gap(column, inside.x());
-    for (std::int32_t j = 0; j < cells && gap_x2 < bound2; ++j) {
-      const std::int32_t row = outwards(j);
-      if (gap_x2 + squared_gap(row, inside.y()) >= bound2) {
-        continue;
-      }
-      for (std::int32_t k = first_of(x + column, y + row); k >= 0;) {
-        const Entry& entry = entries_[static_cast<std::size_t>(k)];
-        const double distance2 = (entry.p - p).squaredNorm();
-        if (distance2 < bound2 &&
-            (!surface || (entry.is_surface() && entry.normal.dot(normal) >= kSameSide))) {
-          visit(k, distance2);
-        }
-        k = entry.next;
+    for (std::int32_t row = below; row <= above; ++row) {
+      if ((column != 0 || row != 0) && gap_x2 + squared_gap(row, inside.y()) < bound2) {
+        visit_cell(x + column, y + row);
       }
     }
   }

@@ -72,7 +72,7 @@ class LocalMap {
   template <typename Visit>
   void visit_near(const Eigen::Vector2d& p, double distance, Visit&& visit) const noexcept;
   std::int32_t mergeable(const Eigen::Vector2d& p, const Eigen::Vector2d& normal) const noexcept;
-  void draw_lines();
+  void draw_lines(bool all);
   void draw_line(Surfel& surfel) const noexcept;
 
   // What a search reads of a surfel, and the next of the same cell; < 0: none.
