@@ -215,7 +215,7 @@ class Ours(Peer):
 
     def match(self, a: Array, b: Array) -> Array:
         match = self.odometry.match(self.scanner, a, b)
-        self.unsure.append(match.degenerate or match.status != "converged")
+        self.unsure.append(match.degenerate or match.ambiguous or match.status != "converged")
         return np.asarray(match.pose)
 
     def follow(self, scans: Array) -> Iterator[Array]:

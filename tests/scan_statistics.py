@@ -40,6 +40,7 @@ class Matches:
     covariances: np.ndarray
     status: list[str]
     degenerate: np.ndarray
+    ambiguous: np.ndarray
     truth: np.ndarray
     seeds: list[tuple[int, int]] = field(default_factory=list)
 
@@ -55,8 +56,8 @@ class Matches:
 
     @property
     def unsaid(self):
-        """Lost and yet called converged and not degenerate: what must not be."""
-        return self.lost & self.converged & ~self.degenerate
+        """Lost and called converged, neither degenerate nor ambiguous: what must not be."""
+        return self.lost & self.converged & ~self.degenerate & ~self.ambiguous
 
     @property
     def nees(self):
@@ -74,7 +75,7 @@ class Matches:
             f"mrad {np.median(turn):5.2f} {np.percentile(turn, 95):5.2f} "
             f"NEES median {np.median(nees):6.2f} mean {nees.mean():7.2f} "
             f"inside {100 * np.mean(nees < INSIDE):5.1f} % degenerate "
-            f"{100 * self.degenerate.mean():5.1f} %"
+            f"{100 * self.degenerate.mean():5.1f} % ambiguous {100 * self.ambiguous.mean():5.1f} %"
         )
 
 
@@ -99,6 +100,7 @@ def matches(family, sensor, count, seed=0, *, distance=0.3, turn=0.3, guess_erro
         covariances=np.array([m.covariance for _, m in rows]),
         status=[m.status for _, m in rows],
         degenerate=np.array([m.degenerate for _, m in rows]),
+        ambiguous=np.array([m.ambiguous for _, m in rows]),
         truth=truth,
         seeds=[(seed, k) for k in range(count)],
     )

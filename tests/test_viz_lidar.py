@@ -30,10 +30,14 @@ def test_poses_for_each_scan():
         viz.plot_laser_odometry(SCANNER, np.ones(2), [[0, 0, 0]])
 
 
-def matched(covariance, degenerate=False):
+def matched(covariance, degenerate=False, ambiguous=False):
     pose = np.array([0.1, 0.0, 0.0])
     return SimpleNamespace(
-        pose=pose, covariance=covariance, status="converged", degenerate=degenerate
+        pose=pose,
+        covariance=covariance,
+        status="converged",
+        degenerate=degenerate,
+        ambiguous=ambiguous,
     )
 
 
@@ -58,5 +62,11 @@ def test_a_corridor_is_cut_and_dashed():
     (axes,) = viz.plot_scan_match(SCANNER, [1.0, 2.0], [np.inf, np.inf], unknown).axes
     (ellipse,) = [p for p in axes.patches if isinstance(p, Ellipse)]
     assert (ellipse.width, ellipse.get_linestyle()) == (6.0, "--")
-    assert "degenerate" in axes.get_title()
+    assert "converged, degenerate;" in axes.get_title()
     assert "1e+04" in ellipse.get_label() or "2e+04" in ellipse.get_label()
+
+
+def test_what_is_ambiguous_says_so():
+    doubtful = matched(np.diag([0.04, 1e-4, 1e-4]), ambiguous=True)
+    (axes,) = viz.plot_scan_match(SCANNER, [1.0, 2.0], [1.0, 2.0], doubtful).axes
+    assert "converged, ambiguous;" in axes.get_title()

@@ -29,9 +29,11 @@ ScanMatch match(const Scanner& scanner, const ArrayLike& ranges_a, const ArrayLi
   }
   check_match_options(options);
   const py::gil_scoped_release release;
-  PlanarScan scan;
+  // Kept from call to call: their memory would cost more than the match.
+  thread_local PlanarScan scan;
+  thread_local LocalMap map;
   read_scan(scanner, first, Twist2::Zero(), scan);
-  LocalMap map;
+  map.clear();
   map.insert(scan, Pose2::Zero(), 0.0);
   read_scan(scanner, second, Twist2::Zero(), scan);
   return match_scan(map, scan, start, {}, scanner.noise, options);
@@ -104,9 +106,14 @@ Examples
       .def_readonly("iterations", &ScanMatch::iterations, "Steps, over all starts.")
       .def_readonly("searched", &ScanMatch::searched,
                     "Whether the fit from the guess was poor and the correlative search was asked.")
+      .def_readonly(
+          "ambiguous", &ScanMatch::ambiguous,
+          "Whether another pose fits nearly as well: the covariance spans both. People who "
+          "walk may make a wrong fit the better one.")
       .def("__repr__", [](const ScanMatch& s) {
         return "<ScanMatch " + std::string(status_name(s.status)) +
-               (s.degenerate > 0 ? " degenerate" : "") + " pose=" +
+               (s.degenerate > 0 ? " degenerate" : "") + (s.ambiguous ? " ambiguous" : "") +
+               " pose=" +
                std::string(py::repr(py::make_tuple(s.pose.x(), s.pose.y(), s.pose.z()))) + ">";
       });
 

@@ -185,6 +185,11 @@ class ScanMatch:
     def __repr__(self) -> str:
         ...
     @property
+    def ambiguous(self) -> bool:
+        """
+        Whether another pose fits nearly as well: the covariance spans both. People who walk may make a wrong fit the better one.
+        """
+    @property
     def covariance(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         (3, 3): of the pose, (x, y, theta) in the first's axes. Along what the scans don't tell it is the guess's.

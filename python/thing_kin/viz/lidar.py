@@ -99,7 +99,8 @@ def plot_scan_match(
     ranges_a, ranges_b : (n,), m
         As given to `odometry.match`.
     match : odometry.ScanMatch
-        What it returned; its `pose`, `covariance`, `status` and `degenerate` are drawn.
+        What it returned; its `pose`, `covariance`, `status`, `degenerate` and `ambiguous` are
+        drawn.
     sigmas : float
         Half axes of the ellipse, in standard deviations.
     axes : matplotlib Axes, optional
@@ -127,7 +128,8 @@ def plot_scan_match(
     _ellipse(axes, np.asarray(match.pose), np.asarray(match.covariance), sigmas)
     left = np.linalg.norm(joined[:, 1] - joined[:, 0], axis=1)
     middle = f"{1e3 * np.median(left):.0f} mm" if len(left) else "none"
-    told = f"{match.status}{', degenerate' if match.degenerate else ''}"
+    doubts = [d for d in ("degenerate", "ambiguous") if getattr(match, d)]
+    told = ", ".join([match.status, *doubts])
     axes.set_aspect("equal", adjustable="datalim")
     title = f"{told}; to the nearest return, median: {middle}"
     tidy(axes, title=title, xlabel="x in a [m]", ylabel="y in a [m]")

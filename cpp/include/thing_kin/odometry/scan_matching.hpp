@@ -60,7 +60,8 @@ struct ScanMatch {
   double residual = 0.0;  ///< m, root mean square over the inliers
   int points = 0;
   int iterations = 0;
-  bool searched = false;  ///< the correlative search was asked
+  bool searched = false;   ///< the correlative search was asked
+  bool ambiguous = false;  ///< another pose fits nearly as well: the covariance spans both
 };
 
 /// Throws InvalidArgument naming the option.
