@@ -130,3 +130,8 @@ def test_proposals_for_a_mobile_arm() -> None:
     )  # fmt: skip
     assert result.propose_postures(2, 200).shape == (2, 9)
     assert not result.degenerate
+
+
+def test_proposals_for_an_arm_that_sags() -> None:
+    result = est.calibrate(ARM, Q, EXACT, sag=(1, 2))
+    assert result.propose_postures(2, 50).shape == (2, 6)
