@@ -59,6 +59,15 @@ def test_a_laser_s_line_through_fiducials() -> None:
     assert {"tool.z", "tool.rz"} <= set(result.unidentifiable)
 
 
+def test_points_are_nothing_to_a_laser_s_line() -> None:
+    places = EXACT[:, :3, 3]
+    results = [
+        est.calibrate(ARM, Q, places, kind="hits", base=BASE, tool=TOOL, points=points)
+        for points in (None, np.zeros((5000, 3)))
+    ]
+    np.testing.assert_array_equal(results[0].values, results[1].values)
+
+
 def test_poses_may_be_missing() -> None:
     gaps = EXACT.copy()
     gaps[[3, 40]] = np.nan

@@ -228,6 +228,23 @@ def test_one_reflector_that_was_never_seen() -> None:
     assert not any(name.startswith("points[0]") for name in result.combinations if "," not in name)
 
 
+def test_a_known_reflector_that_was_never_seen() -> None:
+    """It does not spoil where Ceres begins."""
+    arm = tracked("seven axes")
+    tool = tk.transform(xyz=(0.1, 0.0, 0.2), rpy=(2.0, -1.0, 1.0))
+    points = (np.linalg.inv(tool) @ np.column_stack([arm.reflectors, np.ones(3)]).T)[:3].T
+    hidden = np.full((len(arm.q), 1, 3), np.nan)
+    three = est.calibrate(arm.nominal, arm.q, arm.measured, points=points)
+    four = est.calibrate(
+        arm.nominal,
+        arm.q,
+        np.concatenate([arm.measured, hidden], axis=1),
+        points=np.vstack([points, [0.3, 0.3, 0.3]]),
+    )
+    assert_allclose(four.tool, three.tool, atol=1e-6)
+    assert four.iterations == three.iterations
+
+
 def test_fewer_postures_than_it_takes() -> None:
     arm = tracked("seven axes")
     for postures in (1, 2, 3):
