@@ -179,6 +179,15 @@ def test_hints_of_parameters() -> None:
     assert hints(arm, q=q, measured=places, parameters=("base", "joint_offsets")) == ""
 
 
+def test_no_hints_for_a_head_that_pans_and_tilts() -> None:
+    """No link has a length: how far apart places are says nothing of their unit."""
+    rows = (Row(0.0, 0.0, 0.0, RIGHT), Row(0.0, 0.0, 0.0, 0.0))
+    head = tk.Chain.from_dh([row.dh() for row in rows])
+    q = head.random(40, rng=0)
+    measured = head.fk(q + np.array([0.01, 0.02])) @ tk.transform(xyz=(0.1, 0.2, 0.3))
+    assert est.calibrate(head, q, measured).hints == ()
+
+
 def test_hints_of_nothing() -> None:
     arm = tracked("four axes")
     assert hints(arm, measured=np.full_like(arm.measured, np.nan)) == (
