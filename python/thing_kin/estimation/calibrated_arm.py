@@ -64,7 +64,7 @@ class CalibratedArm(CalibrationResult):
         >>> bool((result.readings(q) == q).all())
         True
         """
-        q = np.asarray(q, dtype=float)
+        q = self._run.read_postures(q, "q")
         sag = self._run.torques(q)
         corrected: Array = q * self.joint_scales
         return corrected if sag is None else corrected + self.compliances * sag
