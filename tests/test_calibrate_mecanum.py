@@ -97,6 +97,9 @@ def test_held_out_stretches() -> None:
     assert "held out" in result.report()
     again = calibrate(simulate(), folds=4)
     assert again.fold_rms == result.fold_rms
+    for folds in (-1, 0, 1):
+        with pytest.raises(ValueError, match=f"^folds: got {folds}, expected at least 2"):
+            result.cross_validated(folds)
 
 
 def test_a_fold_is_not_seen_by_what_predicts_it() -> None:

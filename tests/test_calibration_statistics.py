@@ -73,6 +73,9 @@ def test_folds() -> None:
     assert result.rms_position_nominal > 3 * result.rms_position
     with pytest.raises(ValueError, match="folds: got 7, expected at most the 6 distinct"):
         est.calibrate(ARM, np.repeat(Q[:6], 3, axis=0), np.repeat(EXACT[:6], 3, axis=0), folds=7)
+    for folds in (-1, 0, 1):
+        with pytest.raises(ValueError, match=f"^folds: got {folds}, expected at least 2"):
+            result.cross_validated(folds, np.random.default_rng(0))
 
 
 def test_the_report_says_it_all() -> None:

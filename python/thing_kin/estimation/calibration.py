@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from thing_kin.estimation import calibration_arguments as arguments
+from thing_kin.estimation.calibration_base import check_folds
 from thing_kin.estimation.calibration_result import Calibration
 from thing_kin.estimation.calibration_run import CalibrationRun
 
@@ -136,8 +137,7 @@ def calibrate(
     >>> result.unidentifiable
     ('base.rz', 'tool.rz', 'joint_offsets[0]', 'joint_offsets[5]')
     """
-    if folds < 0 or folds == 1:
-        raise ValueError(f"folds: got {folds}, expected 0 or at least 2")
+    check_folds(folds, or_none=True)
     core = _module()
     shape = arguments.shape_of(measured, q, chain.n)
     kind = kind or ("points" if shape[-1:] == (3,) else "poses")
@@ -222,9 +222,6 @@ def _result(run: CalibrationRun, estimates_noise: bool, points: ArrayLike | None
         distances=distances if k > 1 else distances[:, 0],
         outliers=tuple(outliers if k > 1 else (posture for posture, _ in outliers)),
         iterations=fit.iterations,
-        cross_validated_rms_position=nan,
-        cross_validated_rms_rotation=nan,
-        fold_rms=(),
         _run=run,
     )
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from thing_kin.estimation import calibration_hints, calibration_words
 from thing_kin.estimation.calibrated_arm import CalibratedArm
-from thing_kin.estimation.calibration_base import rms
+from thing_kin.estimation.calibration_base import check_folds
 
 __all__ = ["Calibration"]
 
@@ -186,13 +186,8 @@ class Calibration(CalibratedArm):
         >>> len(result.fold_rms), result.cross_validated_rms_position < 1e-5
         (3, True)
         """
-        errors = self._run.held_out_errors(folds, rng)
-        return replace(
-            self,
-            cross_validated_rms_position=rms(np.concatenate([e[:, :3] for e in errors])),
-            cross_validated_rms_rotation=rms(np.concatenate([e[:, 3:] for e in errors])),
-            fold_rms=tuple(rms(e[:, :3]) for e in errors),
-        )
+        check_folds(folds)
+        return self._judged_by_folds(self._run.held_out_errors(folds, rng))
 
     @cached_property
     def _errors_nominal(self) -> Array:
