@@ -174,6 +174,7 @@ def test_the_plot() -> None:
     ("options", "said"),
     [
         ({"folds": 1}, "folds: got 1"),
+        ({"folds": 20}, "folds: got 20"),  # none is as long as a window
         ({"folds": 500}, "folds: got 500"),
         ({"gate": 1.0}, "gate: got 1"),
         ({"wheel_radius": -1.0}, "wheel_radius: got"),
@@ -205,3 +206,36 @@ def test_gaps_of_the_wheels_are_no_motions() -> None:
     begun = result.times - record.t[0]
     assert not ((begun > 19.0) & (begun < 21.0)).any()
     assert result.rms_position == pytest.approx(calibrate(record).rms_position, rel=0.2)
+
+
+def test_a_reference_that_looks_backward() -> None:
+    """Half a turn from either side: its yaw has changed by little."""
+    result = calibrate(
+        simulate(mount=np.array([0.08, -0.05, -3.13])),
+        mount=(0.08, -0.05, np.pi),
+        mount_std=(0.1, 0.1, 0.05),
+    )
+    assert result.parameters["mount_yaw"] == pytest.approx(2 * np.pi - 3.13 - np.pi, abs=0.01)
+
+
+def test_no_window_in_which_both_were_read() -> None:
+    """The reference begins a moment before the wheels end: no motion, and no error."""
+    record = simulate(duration=10.0)
+    late = replace(record, t_reference=record.t_reference[-15:], poses=record.poses[-15:])
+    result = calibrate(late)
+    assert result.status == "too little motion"
+    assert result.errors.shape == result.errors_nominal.shape == (0, 3)
+    assert result.outliers == ()
+    assert "TOO LITTLE MOTION" in result.report()
+
+
+def test_what_is_assumed_is_what_identification_assumes() -> None:
+    record = simulate(duration=10.0)
+    found = calibrate(record).identification
+    assert len(calibrate(record).times) == len(found.times)  # cut into the same windows
+    still = est.calibrate_mecanum(
+        record.t, np.zeros_like(record.angles), record.t_reference, record.poses
+    )
+    assert_allclose(still.values, 0.0, atol=1e-15)  # nothing is told: all is as assumed
+    explicit = calibrate(record, window=1.0, longest_gap=0.3)
+    np.testing.assert_array_equal(explicit.errors, calibrate(record).errors)

@@ -201,35 +201,33 @@ def calibrate_mecanum(
         np.array(x, dtype=float) for x in (t, wheel_angles, t_reference, poses)
     )
     run = MecanumRun(at, angles, at_reference, seen, order, nominal, known)
-    times, errors, covariances = run.motion_errors(found)
-    distances = np.sqrt(np.einsum("ni,nij,nj->n", errors, np.linalg.inv(covariances), errors))
-    bound = float(_estimation.chi_square_quantile(gate, 3))
-    result = _result(found, run, distances, bound, times, errors)
+    result = _result(found, run, gate)
     return result.cross_validated(folds) if folds else result
 
 
-def _result(
-    found: MecanumIdentification, run: MecanumRun, distances: Array, bound: float,
-    times: Array, errors: Array,
-) -> MecanumCalibration:  # fmt: skip
+def _result(found: MecanumIdentification, run: MecanumRun, gate: float) -> MecanumCalibration:
+    times, errors, spread = run.motion_errors(found)
+    squares = np.sum(errors**2 / spread, axis=1)
+    bound = _estimation.chi_square_quantile(gate, 3)
     variances = np.diag(found.covariance)
     told = np.array([found.identifiable[name] for name in found.names])
     asked = np.flatnonzero(told | (variances > 0.0))  # what is neither was given as known
-    values = np.array([found.wheel_radius, found.k, *found.mount, found.clock_offset])
+    values = np.array([found.wheel_radius, found.k, *found.mount, found.clock_offset]) - run.nominal
+    values[2:5] = _estimation.pose_difference(found.mount, run.nominal[2:5])  # yaw within a turn
     names = tuple(found.names[i] for i in asked)
     untold = tuple(found.names[i] for i in asked if not told[i])
     return MecanumCalibration(
         status=found.status,
         names=names,
         nominal=run.nominal[asked],
-        values=(values - run.nominal)[asked],
+        values=values[asked],
         std=np.where(told, np.sqrt(variances), np.inf)[asked],
         covariance=found.covariance[np.ix_(asked, asked)],
         unidentifiable=untold,
         combinations=untold,
         errors=errors,
-        distances=distances,
-        outliers=tuple(np.flatnonzero(distances**2 > bound).tolist()),
+        distances=np.sqrt(squares),
+        outliers=tuple(np.flatnonzero(squares > bound).tolist()),
         identification=found,
         times=times,
         _run=run,
