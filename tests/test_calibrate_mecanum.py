@@ -227,6 +227,7 @@ def test_no_window_in_which_both_were_read() -> None:
     assert result.errors.shape == result.errors_nominal.shape == (0, 3)
     assert result.outliers == ()
     assert "TOO LITTLE MOTION" in result.report()
+    assert result.plot().axes[0].get_title() == "rms nan mm to nan mm"
 
 
 def test_what_is_assumed_is_what_identification_assumes() -> None:
