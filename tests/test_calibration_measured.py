@@ -104,6 +104,24 @@ def test_mount_and_hand_eye_on_a_mobile_base() -> None:
     assert np.isfinite(result.std[at]).all()
 
 
+@pytest.mark.parametrize(
+    ("name", "size", "other"),
+    [
+        ("base", 3, {}),
+        ("base", 3, {"q_covariance": np.eye(9)}),
+        ("q", 9, {"base_covariance": np.tile(np.eye(3), (5, 1, 1))}),
+    ],
+)
+def test_covariances_of_a_wrong_number_are_named(
+    name: str, size: int, other: dict[str, object]
+) -> None:
+    robot = tk.robots.thing()
+    q = robot.random(5, rng=0)
+    given = {f"{name}_covariance": np.tile(np.eye(size), (4, 1, 1)), **other}
+    with pytest.raises(ValueError, match=f"^{name}_covariance: got 4 .* expected one, or 5"):
+        est.calibrate(robot, q, robot.fk(q), parameters=("mount",), **given)
+
+
 def test_it_writes_what_the_driver_reads() -> None:
     yaml = pytest.importorskip("yaml")
     last = {f"dh[5].{name}": 0.0 for name in ("a", "alpha")}

@@ -107,7 +107,8 @@ def calibrate(
     rng : int or Generator
         Draws the folds.
     sag : sequence of joint names or indices
-        Joints that gravity turns, by a compliance (rad for each N m) times its torque.
+        Joints that gravity turns, by a compliance (rad for each N m) times its torque, or shifts
+        (m for each N).
     loads : sequence of (frame, point, kg)
         What gravity pulls at. Default: one kg at the last frame, so that compliances are for each
         kg there.
@@ -150,7 +151,8 @@ def calibrate(
         names += [] if "points" in names else ["points"]
     joints = [arguments.joint_of(chain, name) for name in sag]
     names += ["sag"] if joints and "sag" not in names else []
-    joint_covariance = arguments.joint_covariance(core, chain, q_covariance, base_covariance)
+    count = shape[0] if shape else 0
+    joint_covariance = arguments.joint_covariance(core, chain, count, q_covariance, base_covariance)
 
     down = core.numbers(gravity, "gravity", (3,), False, False)
 

@@ -31,7 +31,7 @@ class CalibratedNumber:
     std : float
         Of the value, in `unit`; inf: the data do not tell it.
     unit : str
-        "m", "rad", "s", "1" or "rad/(N m)".
+        "m", "rad", "s", "1", "rad/(N m)" or "m/N".
 
     Examples
     --------
