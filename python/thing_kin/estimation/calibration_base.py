@@ -76,8 +76,6 @@ class CalibrationResult:
         These combinations: motions of parameters that change nothing which was measured.
     errors : (N, ...)
         Measured less predicted, position first; NaN where nothing was measured.
-    errors_nominal : (N, ...)
-        The same by nominal numbers.
     distances : (N, ...)
         Of the measurements, in deviations of their residuals.
     outliers : tuple
