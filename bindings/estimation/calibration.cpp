@@ -69,15 +69,10 @@ void bind_calibration(py::module_& m) {
                              [](const CalibrationFit& f) { return to_array(f.distances); })
       .def_property_readonly("outliers", [](const CalibrationFit& f) { return bools(f.outliers); })
       .def_property_readonly("rank", [](const CalibrationFit& f) { return f.sight.rank; })
-      .def_property_readonly(
-          "singular_values",
-          [](const CalibrationFit& f) { return to_array(f.sight.singular_values); })
       .def_property_readonly("covariance",
                              [](const CalibrationFit& f) { return to_array(f.sight.covariance); })
       .def_property_readonly("is_told",
-                             [](const CalibrationFit& f) { return bools(f.sight.is_told); })
-      .def_property_readonly("unseen",
-                             [](const CalibrationFit& f) { return to_array(f.sight.unseen); });
+                             [](const CalibrationFit& f) { return bools(f.sight.is_told); });
 }
 
 }  // namespace thing_kin::python
