@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from scipy.stats import chi2
 
 import thing_kin as tk
 from test_identify_mecanum import MOUNT, NOMINAL, RADIUS, TRUTH, K, Record, simulate
@@ -240,3 +241,45 @@ def test_what_is_assumed_is_what_identification_assumes() -> None:
     assert_allclose(still.values, 0.0, atol=1e-15)  # nothing is told: all is as assumed
     explicit = calibrate(record, window=1.0, longest_gap=0.3)
     np.testing.assert_array_equal(explicit.errors, calibrate(record).errors)
+
+
+def test_outliers_are_beyond_a_quantile_of_chi_square() -> None:
+    result = calibrate(simulate(), gate=0.7)
+    beyond = np.flatnonzero(result.distances**2 > chi2.ppf(0.7, 3))
+    assert len(beyond) > 2
+    assert result.outliers == tuple(beyond)
+
+
+def test_poses_gone_astray_within_a_window_do_not_count() -> None:
+    record = simulate(noise=(1e-4, 1e-4), slip=0.1)
+    poses = record.poses.copy()
+    poses[::10] += [0.5, -0.3, 0.4]
+    astray = calibrate(replace(record, poses=poses))
+    assert astray.rms_position == pytest.approx(calibrate(record).rms_position, rel=0.2)
+
+
+def test_a_gap_in_which_the_robot_stood_is_a_motion() -> None:
+    record = simulate(noise=(1e-4, 1e-4), slip=0.1)
+    since = record.t - record.t[0]
+    moved = np.where(since < 20.0, since, np.maximum(20.0, since - 4.0))  # stands four seconds
+    angles = np.stack([np.interp(moved, since, c) for c in record.angles.T], axis=1)
+    at = record.t_reference - record.t[0]
+    then = np.where(at < 20.0, at, np.maximum(20.0, at - 4.0))
+    poses = np.stack([np.interp(then, at, c) for c in record.poses.T], axis=1)
+    kept = (since < 21.0) | (since > 23.0)
+    stood = replace(record, t=record.t[kept], angles=angles[kept], poses=poses)
+    assert len(calibrate(stood).times) == len(calibrate(replace(record, poses=poses)).times)
+
+
+def test_between_sparse_stamps_wheels_roll_along_arcs() -> None:
+    """Twice a second, beside a reference that knows the arcs: chords are 4 mm off."""
+    wheels, t = est.MecanumOdometry(RADIUS, K), np.arange(0.0, 60.0, 0.5)
+    twists = np.stack([0.3 * np.cos(t), 0.2 * np.sin(2 * t), 0.5 + 0.2 * np.sin(t)], axis=1)
+    angles = np.cumsum(wheels.wheel_speeds(twists) * 0.5, axis=0)
+    fine = np.arange(0.0, 59.4, 0.02)
+    dense = np.stack([np.interp(fine, t, c) for c in angles.T], axis=1)
+    poses = wheels.integrate_angles(fine, dense).poses
+    result = calibrate(Record(t, angles, fine, poses, poses), longest_gap=1.0)
+    assert result.rms_position < 1e-6
+    assert result.rms_rotation < 1e-6
+    assert result.outliers == ()

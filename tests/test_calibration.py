@@ -87,6 +87,16 @@ def test_scales_and_sag() -> None:
     assert result.predict(Q[0]).shape == (4, 4)
 
 
+def test_loads_add_up() -> None:
+    loads = ((None, (0.0, 0.0, 0.1), 2.0), (3, (0.2, 0.0, 0.0), 5.0))
+    J = 2.0 * ARM.jacobian(Q, point=(0.0, 0.0, 0.1)) + 5.0 * ARM.jacobian(
+        Q, of=3, point=(0.2, 0.0, 0.0)
+    )
+    true = Q + J[:, 2, :] * -9.81 * [0, 2e-5, 1e-5, 0, 0, 0]
+    result = est.calibrate(ARM, Q, ARM.fk(true), sag=(1, 2), loads=loads)
+    assert_allclose(result.compliances[1:3], [2e-5, 1e-5], atol=1e-8)
+
+
 def test_a_sliding_joint() -> None:
     rows = [tk.DH(alpha=np.pi / 2, joint="revolute", lower=-3, upper=3),
             tk.DH(alpha=-np.pi / 2, joint="revolute", lower=-3, upper=3),

@@ -99,6 +99,7 @@ def test_mount_and_hand_eye_on_a_mobile_base() -> None:
     spread = 1e3 * np.linalg.norm(result.errors[:, :3], axis=1).mean()
     assert spread > 1.0  # mm: most of it is the localizer's
     assert result.variance_factor == pytest.approx(1.0, abs=0.25)
+    assert result.noise_position == pytest.approx(2e-4, rel=0.3)  # the tracker's own
     at = [result.names.index(f"mount.{axis}") for axis in ("x", "y", "z", "rx", "ry")]
     assert (np.abs(result.values[at] - mount[:5]) < 3.5 * result.std[at]).all()
     assert np.isfinite(result.std[at]).all()

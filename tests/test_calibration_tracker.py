@@ -155,6 +155,18 @@ def test_hints_of_units() -> None:
     assert "points are farther" in hints(arm, points=1e3 * arm.reflectors)
 
 
+def test_no_hint_of_degrees_for_many_turns() -> None:
+    arm = tracked("seven axes")
+    assert hints(arm, q=arm.q + 8.0 * np.pi) == ""
+
+
+def test_hints_of_many_outliers() -> None:
+    arm = tracked("seven axes")
+    measured = arm.measured.copy()
+    measured[::3] += np.random.default_rng(0).normal(0, 0.02, measured[::3].shape)
+    assert "% are outliers" in hints(arm, measured=measured)
+
+
 def test_hints_of_order() -> None:
     arm = tracked("seven axes")
     assert "another order" in hints(arm, q=arm.q[:, ::-1])

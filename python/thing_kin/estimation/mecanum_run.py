@@ -45,7 +45,6 @@ class MecanumRun:
         """Return what the reference saw between windows, less what these wheels say."""
         t = self.t - found.clock_offset
         path = lie.se2_compose(wheels.integrate_angles(t, self.wheel_angles).poses, found.mount)
-        path[:, 2] = np.unwrap(path[:, 2])
         middles, seen = self._windows(t, path)
         along = _at(middles, t, path)
         errors = lie.se2_log(lie.se2_between(_steps(along), _steps(seen)))
@@ -129,4 +128,10 @@ def _steps(poses: Array) -> Array:
 
 
 def _at(stamps: Array, t: Array, path: Array) -> Array:
-    return np.stack([np.interp(stamps, t, column) for column in path.T], axis=1)
+    """On the arcs from each pose to the next; the first and last pose beyond them."""
+    step = np.clip(np.searchsorted(t, stamps, side="right") - 1, 0, len(t) - 2)
+    duration = np.diff(t)[step]
+    lasts = duration > 0.0
+    part = np.where(lasts, (stamps - t[step]) / np.where(lasts, duration, 1.0), 1.0).clip(0.0, 1.0)
+    arcs = lie.se2_log(_steps(path))[step]
+    return np.asarray(lie.se2_compose(path[step], lie.se2_exp(part[:, None] * arcs)))
