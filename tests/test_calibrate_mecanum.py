@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 from scipy.stats import chi2
 
 import thing_kin as tk
-from test_identify_mecanum import MOUNT, NOMINAL, RADIUS, TRUTH, K, Record, simulate
+from test_identify_mecanum import MOUNT, NOMINAL, RADIUS, TRUTH, K, Record, composed, simulate
 from thing_kin import estimation as est
 
 NUMBERS = ("wheel_radius", "k", "mount_x", "mount_y", "mount_yaw")
@@ -283,3 +283,11 @@ def test_between_sparse_stamps_wheels_roll_along_arcs() -> None:
     assert result.rms_position < 1e-6
     assert result.rms_rotation < 1e-6
     assert result.outliers == ()
+
+
+def test_distances_do_not_depend_on_how_the_body_is_turned() -> None:
+    """Slip is in the robot's axes: more of it to the side."""
+    record = simulate(noise=(1e-4, 1e-4), mount=np.zeros(3))
+    plain = calibrate(record)
+    turned = calibrate(replace(record, poses=composed(record.poses, np.array([0, 0, np.pi / 2]))))
+    assert_allclose(turned.distances, plain.distances, rtol=0.01)

@@ -206,8 +206,9 @@ def calibrate_mecanum(
 
 
 def _result(found: MecanumIdentification, run: MecanumRun, gate: float) -> MecanumCalibration:
-    times, errors, spread = run.motion_errors(found)
-    squares = np.sum(errors**2 / spread, axis=1)
+    times, errors, covariances = run.motion_errors(found)
+    white = np.linalg.solve(covariances, errors[..., None])[..., 0]
+    squares = np.sum(errors * white, axis=1)
     bound = _estimation.chi_square_quantile(gate, 3)
     variances = np.diag(found.covariance)
     told = np.array([found.identifiable[name] for name in found.names])

@@ -31,7 +31,7 @@ class MecanumRun:
     known: dict[str, Any]
 
     def motion_errors(self, found: MecanumIdentification) -> tuple[Array, Array, Array]:
-        """Return times of motions between windows, their errors and variances, both (N, 3)."""
+        """Return times of motions between windows, their errors (N, 3) and covariances."""
         return self._errors_by(found.odometry, found)
 
     def errors_nominal(self, found: MecanumIdentification) -> Array:
@@ -50,10 +50,12 @@ class MecanumRun:
         errors = lie.se2_log(lie.se2_between(_steps(along), _steps(seen)))
         rolled = np.abs(np.diff(self.wheel_angles, axis=0)).mean(axis=1) * wheels.wheel_radius
         travel = np.diff(np.interp(middles, t, np.concatenate([[0.0], np.cumsum(rolled)])))
-        of_reference = 2.0 * found.reference_std**2 + 1e-12  # of both ends
-        variances = of_reference + found.slip_variance * travel[:, None]
+        of_reference = np.diag(2.0 * found.reference_std**2 + 1e-12)  # at both ends
+        seen_from = lie.se2_adjoint(lie.se2_inverse(found.mount))  # slip is in the robot's axes
+        of_slip = (seen_from * found.slip_variance) @ seen_from.T
+        covariances = of_reference + travel[:, None, None] * of_slip
         whole = self._whole(t, middles)
-        return middles[:-1][whole], errors[whole], variances[whole]
+        return middles[:-1][whole], errors[whole], covariances[whole]
 
     def held_out_errors(self, folds: int) -> list[Array]:
         """Errors in each of so many stretches of time, by what the others tell."""
