@@ -28,7 +28,7 @@ class Fit:
     def errors(self) -> numpy.typing.NDArray[numpy.float64]:
         ...
     @property
-    def is_told(self) -> numpy.typing.NDArray[numpy.float64]:
+    def is_told(self) -> list[bool]:
         ...
     @property
     def iterations(self) -> int:
@@ -40,7 +40,7 @@ class Fit:
     def noise_is_estimated(self) -> bool:
         ...
     @property
-    def outliers(self) -> numpy.typing.NDArray[numpy.float64]:
+    def outliers(self) -> list[bool]:
         ...
     @property
     def points(self) -> list[int]:
