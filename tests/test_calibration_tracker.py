@@ -137,6 +137,27 @@ def test_swapped_reflectors_are_outliers() -> None:
     assert swapped <= set(result.outliers)
 
 
+def test_each_place_has_its_covariance() -> None:
+    """One reflector a thousand times as noisy as the others: as if it were not there."""
+    arm = tracked("seven axes")
+    rng = np.random.default_rng(1)
+    measured = np.where(np.isnan(arm.measured), arm.places(arm.q), arm.measured)
+    measured[:, 1] += rng.normal(0, 1e3 * NOISE, (40, 3))
+    variances = np.tile([1.0, 1e6, 1.0], 40) * NOISE**2
+    given = {"points": arm.reflectors, "loss": "linear"}
+    result = est.calibrate(
+        arm.nominal, arm.q, measured, covariance=variances[:, None, None] * np.eye(3), **given
+    )
+    given["points"] = arm.reflectors[[0, 2]]
+    alone = est.calibrate(
+        arm.nominal, arm.q, measured[:, [0, 2]], covariance=NOISE**2 * np.eye(3), **given
+    )
+    assert_allclose(result.joint_offsets[1:6], alone.joint_offsets[1:6], atol=1e-6)
+    assert result.variance_factor == pytest.approx(
+        (alone.variance_factor * alone.dof + 120) / result.dof, rel=0.1
+    )
+
+
 # --- what a new user gets wrong
 
 
