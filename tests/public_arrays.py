@@ -1,5 +1,6 @@
 """Every array argument of the public API, for fuzzing: a good value, and a call for others."""
 
+import functools
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
@@ -584,6 +585,11 @@ ARM_POSTURES = ARM.random(8, rng=0)
 ARM_POSES = ARM.fk(ARM_POSTURES)
 
 
+@functools.cache
+def calibrated_arm() -> est.Calibration:
+    return est.calibrate(ARM, ARM_POSTURES, ARM_POSES, sag=(1,))
+
+
 # Two, so that they are not of a rotation's shape.
 REFLECTORS = np.array([[0.05, 0.0, 0.1], [-0.03, 0.06, 0.12]])
 SEEN_REFLECTORS = np.stack([(ARM_POSES @ [*p, 1.0])[:, :3] for p in REFLECTORS], axis=1)
@@ -608,6 +614,8 @@ CALIBRATION = [
     Argument(
         "calibrate", "q_covariance", 0.1 * np.eye(6), calibrated("q_covariance"), moderate=True
     ),
+    Argument("readings", "q", ARM_POSTURES, lambda v: calibrated_arm().readings(v), moderate=True),
+    Argument("predict", "q", ARM_POSTURES, lambda v: calibrated_arm().predict(v), moderate=True),
     Argument("calibrate", "base", T, calibrated("base"), moderate=True),
     Argument("calibrate", "tool", T, calibrated("tool"), moderate=True),
     Argument(

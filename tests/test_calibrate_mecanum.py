@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from scipy.stats import chi2
 
 import thing_kin as tk
-from test_identify_mecanum import MOUNT, NOMINAL, RADIUS, TRUTH, K, Record, simulate
+from test_identify_mecanum import MOUNT, NOMINAL, RADIUS, TRUTH, K, Record, composed, simulate
 from thing_kin import estimation as est
 
 NUMBERS = ("wheel_radius", "k", "mount_x", "mount_y", "mount_yaw")
@@ -97,6 +98,9 @@ def test_held_out_stretches() -> None:
     assert "held out" in result.report()
     again = calibrate(simulate(), folds=4)
     assert again.fold_rms == result.fold_rms
+    for folds in (-1, 0, 1):
+        with pytest.raises(ValueError, match=f"^folds: got {folds}, expected at least 2"):
+            result.cross_validated(folds)
 
 
 def test_a_fold_is_not_seen_by_what_predicts_it() -> None:
@@ -171,6 +175,7 @@ def test_the_plot() -> None:
     ("options", "said"),
     [
         ({"folds": 1}, "folds: got 1"),
+        ({"folds": 20}, "folds: got 20"),  # none is as long as a window
         ({"folds": 500}, "folds: got 500"),
         ({"gate": 1.0}, "gate: got 1"),
         ({"wheel_radius": -1.0}, "wheel_radius: got"),
@@ -202,3 +207,87 @@ def test_gaps_of_the_wheels_are_no_motions() -> None:
     begun = result.times - record.t[0]
     assert not ((begun > 19.0) & (begun < 21.0)).any()
     assert result.rms_position == pytest.approx(calibrate(record).rms_position, rel=0.2)
+
+
+def test_a_reference_that_looks_backward() -> None:
+    """Half a turn from either side: its yaw has changed by little."""
+    result = calibrate(
+        simulate(mount=np.array([0.08, -0.05, -3.13])),
+        mount=(0.08, -0.05, np.pi),
+        mount_std=(0.1, 0.1, 0.05),
+    )
+    assert result.parameters["mount_yaw"] == pytest.approx(2 * np.pi - 3.13 - np.pi, abs=0.01)
+
+
+def test_no_window_in_which_both_were_read() -> None:
+    """The reference begins a moment before the wheels end: no motion, and no error."""
+    record = simulate(duration=10.0)
+    late = replace(record, t_reference=record.t_reference[-15:], poses=record.poses[-15:])
+    result = calibrate(late)
+    assert result.status == "too little motion"
+    assert result.errors.shape == result.errors_nominal.shape == (0, 3)
+    assert result.outliers == ()
+    assert "TOO LITTLE MOTION" in result.report()
+    assert result.plot().axes[0].get_title() == "rms nan mm to nan mm"
+
+
+def test_what_is_assumed_is_what_identification_assumes() -> None:
+    record = simulate(duration=10.0)
+    found = calibrate(record).identification
+    assert len(calibrate(record).times) == len(found.times)  # cut into the same windows
+    still = est.calibrate_mecanum(
+        record.t, np.zeros_like(record.angles), record.t_reference, record.poses
+    )
+    assert_allclose(still.values, 0.0, atol=1e-15)  # nothing is told: all is as assumed
+    explicit = calibrate(record, window=1.0, longest_gap=0.3)
+    np.testing.assert_array_equal(explicit.errors, calibrate(record).errors)
+
+
+def test_outliers_are_beyond_a_quantile_of_chi_square() -> None:
+    result = calibrate(simulate(), gate=0.7)
+    beyond = np.flatnonzero(result.distances**2 > chi2.ppf(0.7, 3))
+    assert len(beyond) > 2
+    assert result.outliers == tuple(beyond)
+
+
+def test_poses_gone_astray_within_a_window_do_not_count() -> None:
+    record = simulate(noise=(1e-4, 1e-4), slip=0.1)
+    poses = record.poses.copy()
+    poses[::10] += [0.5, -0.3, 0.4]
+    astray = calibrate(replace(record, poses=poses))
+    assert astray.rms_position == pytest.approx(calibrate(record).rms_position, rel=0.2)
+
+
+def test_a_gap_in_which_the_robot_stood_is_a_motion() -> None:
+    record = simulate(noise=(1e-4, 1e-4), slip=0.1)
+    since = record.t - record.t[0]
+    moved = np.where(since < 20.0, since, np.maximum(20.0, since - 4.0))  # stands four seconds
+    angles = np.stack([np.interp(moved, since, c) for c in record.angles.T], axis=1)
+    at = record.t_reference - record.t[0]
+    then = np.where(at < 20.0, at, np.maximum(20.0, at - 4.0))
+    poses = np.stack([np.interp(then, at, c) for c in record.poses.T], axis=1)
+    kept = (since < 21.0) | (since > 23.0)
+    stood = replace(record, t=record.t[kept], angles=angles[kept], poses=poses)
+    assert len(calibrate(stood).times) == len(calibrate(replace(record, poses=poses)).times)
+
+
+def test_between_sparse_stamps_wheels_roll_along_arcs() -> None:
+    """Twice a second, beside a reference that knows the arcs: chords are 4 mm off."""
+    wheels, t = est.MecanumOdometry(RADIUS, K), np.arange(0.0, 60.0, 0.5)
+    twists = np.stack([0.3 * np.cos(t), 0.2 * np.sin(2 * t), 0.5 + 0.2 * np.sin(t)], axis=1)
+    angles = np.cumsum(wheels.wheel_speeds(twists) * 0.5, axis=0)
+    fine = np.arange(0.0, 59.4, 0.02)
+    dense = np.stack([np.interp(fine, t, c) for c in angles.T], axis=1)
+    poses = wheels.integrate_angles(fine, dense).poses
+    result = calibrate(Record(t, angles, fine, poses, poses), longest_gap=1.0)
+    assert result.rms_position < 1e-6
+    assert result.rms_rotation < 1e-6
+    assert result.outliers == ()
+
+
+def test_distances_do_not_depend_on_how_the_body_is_turned() -> None:
+    """Slip is in the robot's axes: more of it to the side."""
+    record = simulate(noise=(1e-4, 1e-4), mount=np.zeros(3))
+    plain = calibrate(record)
+    turned = calibrate(replace(record, poses=composed(record.poses, np.array([0, 0, np.pi / 2]))))
+    assert_allclose(turned.distances, plain.distances, rtol=0.01)

@@ -87,6 +87,16 @@ def test_scales_and_sag() -> None:
     assert result.predict(Q[0]).shape == (4, 4)
 
 
+def test_loads_add_up() -> None:
+    loads = ((None, (0.0, 0.0, 0.1), 2.0), (3, (0.2, 0.0, 0.0), 5.0))
+    J = 2.0 * ARM.jacobian(Q, point=(0.0, 0.0, 0.1)) + 5.0 * ARM.jacobian(
+        Q, of=3, point=(0.2, 0.0, 0.0)
+    )
+    true = Q + J[:, 2, :] * -9.81 * [0, 2e-5, 1e-5, 0, 0, 0]
+    result = est.calibrate(ARM, Q, ARM.fk(true), sag=(1, 2), loads=loads)
+    assert_allclose(result.compliances[1:3], [2e-5, 1e-5], atol=1e-8)
+
+
 def test_a_sliding_joint() -> None:
     rows = [tk.DH(alpha=np.pi / 2, joint="revolute", lower=-3, upper=3),
             tk.DH(alpha=-np.pi / 2, joint="revolute", lower=-3, upper=3),
@@ -100,6 +110,21 @@ def test_a_sliding_joint() -> None:
     with_rows = est.calibrate(arm, q, arm.fk(q + offsets), parameters=("joint_offsets", "dh"))
     assert "dh[2].theta" in with_rows.names
     assert "dh[2].d" not in with_rows.names
+
+
+def test_a_sliding_joint_that_gives_way() -> None:
+    rows = [tk.DH(alpha=np.pi / 2, joint="revolute", lower=-3, upper=3),
+            tk.DH(joint="prismatic", lower=0.2, upper=1),
+            tk.DH(a=0.1, alpha=np.pi / 2, joint="revolute", lower=-3, upper=3)]  # fmt: skip
+    arm = tk.Chain.from_dh(rows)
+    q = arm.random(40, rng=0)
+    gravity = (0.0, 3.0, -9.0)
+    force = np.einsum("nij,i->nj", arm.jacobian(q)[:, :3], gravity)
+    true = q + force * [0.0, 2e-4, 0.0]
+    result = est.calibrate(arm, q, arm.fk(true), sag=(1,), gravity=gravity)
+    assert result.compliances[1] == pytest.approx(2e-4, abs=1e-7)
+    assert result.table[-1].unit == "m/N"
+    assert "mm/N" in result.report()
 
 
 def test_it_is_the_least_squares_that_scipy_finds() -> None:
@@ -166,6 +191,14 @@ def test_measurements_that_do_not_fit() -> None:
         with pytest.raises(ValueError) as error:  # noqa: PT011
             est.calibrate(ARM, q, measured)
         assert str(error.value).startswith(said), error.value
+
+
+@pytest.mark.parametrize("kind", [None, "poses", "points", "hits"])
+def test_lists_of_several_lengths_are_named(kind: str | None) -> None:
+    with pytest.raises(ValueError, match=r"^measured: got list, expected an array"):
+        est.calibrate(ARM, Q[:2], [[1.0, 2.0, 3.0], [1.0]], kind=kind)
+    with pytest.raises(ValueError, match=r"^q: got list, expected an array"):
+        est.calibrate(ARM, [[1.0], [1.0, 2.0]], EXACT[:2], kind=kind)
 
 
 def test_values_are_motions_from_nominal() -> None:

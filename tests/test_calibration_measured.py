@@ -59,6 +59,15 @@ def test_a_laser_s_line_through_fiducials() -> None:
     assert {"tool.z", "tool.rz"} <= set(result.unidentifiable)
 
 
+def test_points_are_nothing_to_a_laser_s_line() -> None:
+    places = EXACT[:, :3, 3]
+    results = [
+        est.calibrate(ARM, Q, places, kind="hits", base=BASE, tool=TOOL, points=points)
+        for points in (None, np.zeros((5000, 3)))
+    ]
+    np.testing.assert_array_equal(results[0].values, results[1].values)
+
+
 def test_poses_may_be_missing() -> None:
     gaps = EXACT.copy()
     gaps[[3, 40]] = np.nan
@@ -90,9 +99,49 @@ def test_mount_and_hand_eye_on_a_mobile_base() -> None:
     spread = 1e3 * np.linalg.norm(result.errors[:, :3], axis=1).mean()
     assert spread > 1.0  # mm: most of it is the localizer's
     assert result.variance_factor == pytest.approx(1.0, abs=0.25)
+    assert result.noise_position == pytest.approx(2e-4, rel=0.3)  # the tracker's own
     at = [result.names.index(f"mount.{axis}") for axis in ("x", "y", "z", "rx", "ry")]
     assert (np.abs(result.values[at] - mount[:5]) < 3.5 * result.std[at]).all()
     assert np.isfinite(result.std[at]).all()
+
+
+def test_each_posture_has_the_base_s_covariance() -> None:
+    """Half of them localized a thousand times as badly: they spoil nothing."""
+    rng = np.random.default_rng(0)
+    robot = tk.robots.thing()
+    q = robot.random(60, rng=1)
+    sd = np.where(np.arange(60) % 2 == 0, 1e-4, 1e-1)
+    localized = q.copy()
+    localized[:, 6:] += rng.normal(size=(60, 3)) * sd[:, None]
+    result = est.calibrate(
+        robot,
+        localized,
+        robot.fk(q)[:, :3, 3] + rng.normal(0, 1e-4, (60, 3)),
+        parameters=("tool",),
+        loss="linear",
+        covariance=1e-8 * np.eye(3),
+        base_covariance=sd[:, None, None] ** 2 * np.eye(3),
+    )
+    assert np.linalg.norm(result.tool[:3, 3]) < 1e-4
+    assert result.variance_factor == pytest.approx(1.0, abs=0.4)
+
+
+@pytest.mark.parametrize(
+    ("name", "size", "other"),
+    [
+        ("base", 3, {}),
+        ("base", 3, {"q_covariance": np.eye(9)}),
+        ("q", 9, {"base_covariance": np.tile(np.eye(3), (5, 1, 1))}),
+    ],
+)
+def test_covariances_of_a_wrong_number_are_named(
+    name: str, size: int, other: dict[str, object]
+) -> None:
+    robot = tk.robots.thing()
+    q = robot.random(5, rng=0)
+    given = {f"{name}_covariance": np.tile(np.eye(size), (4, 1, 1)), **other}
+    with pytest.raises(ValueError, match=f"^{name}_covariance: got 4 .* expected one, or 5"):
+        est.calibrate(robot, q, robot.fk(q), parameters=("mount",), **given)
 
 
 def test_it_writes_what_the_driver_reads() -> None:

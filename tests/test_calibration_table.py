@@ -44,6 +44,18 @@ def test_a_table_of_poses(tmp_path: Path, capsys: pytest.CaptureFixture[str]) ->
     assert plot.stat().st_size > 10_000
 
 
+@pytest.mark.parametrize("rows", [[0], [0, 0, 0], [0, 1, 1]])
+def test_a_table_of_few_postures(
+    rows: list[int], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """As many folds as there can be."""
+    table = write(tmp_path / "d.csv", [*ARM.names, *POSES], Q[rows], TRUE[rows, :3, 3], RPY[rows])
+    assert cli.main(["calibrate", str(table), "--robot", "ur5"]) != cli.USAGE
+    said = capsys.readouterr().out
+    assert "Calibration of ur5" in said
+    assert ("held out" in said) == (1 in rows)
+
+
 def test_columns_in_any_order_and_gaps(tmp_path: Path) -> None:
     places = TRUE[:, :3, 3].copy()
     places[4] = np.nan

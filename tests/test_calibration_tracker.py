@@ -137,6 +137,27 @@ def test_swapped_reflectors_are_outliers() -> None:
     assert swapped <= set(result.outliers)
 
 
+def test_each_place_has_its_covariance() -> None:
+    """One reflector a thousand times as noisy as the others: as if it were not there."""
+    arm = tracked("seven axes")
+    rng = np.random.default_rng(1)
+    measured = np.where(np.isnan(arm.measured), arm.places(arm.q), arm.measured)
+    measured[:, 1] += rng.normal(0, 1e3 * NOISE, (40, 3))
+    variances = np.tile([1.0, 1e6, 1.0], 40) * NOISE**2
+    given = {"points": arm.reflectors, "loss": "linear"}
+    result = est.calibrate(
+        arm.nominal, arm.q, measured, covariance=variances[:, None, None] * np.eye(3), **given
+    )
+    given["points"] = arm.reflectors[[0, 2]]
+    alone = est.calibrate(
+        arm.nominal, arm.q, measured[:, [0, 2]], covariance=NOISE**2 * np.eye(3), **given
+    )
+    assert_allclose(result.joint_offsets[1:6], alone.joint_offsets[1:6], atol=1e-6)
+    assert result.variance_factor == pytest.approx(
+        (alone.variance_factor * alone.dof + 120) / result.dof, rel=0.1
+    )
+
+
 # --- what a new user gets wrong
 
 
@@ -153,6 +174,18 @@ def test_hints_of_units() -> None:
     assert "millimeters in place of meters" in hints(arm, measured=1e3 * arm.measured)
     assert "degrees in place of radians" in hints(arm, q=np.degrees(arm.q))
     assert "points are farther" in hints(arm, points=1e3 * arm.reflectors)
+
+
+def test_no_hint_of_degrees_for_many_turns() -> None:
+    arm = tracked("seven axes")
+    assert hints(arm, q=arm.q + 8.0 * np.pi) == ""
+
+
+def test_hints_of_many_outliers() -> None:
+    arm = tracked("seven axes")
+    measured = arm.measured.copy()
+    measured[::3] += np.random.default_rng(0).normal(0, 0.02, measured[::3].shape)
+    assert "% are outliers" in hints(arm, measured=measured)
 
 
 def test_hints_of_order() -> None:
@@ -177,6 +210,15 @@ def test_hints_of_parameters() -> None:
     places = np.stack([(flange @ [*p, 1.0])[:, :3] for p in arm.reflectors], axis=1)
     places += np.random.default_rng(0).normal(0, NOISE, places.shape)
     assert hints(arm, q=q, measured=places, parameters=("base", "joint_offsets")) == ""
+
+
+def test_no_hints_for_a_head_that_pans_and_tilts() -> None:
+    """No link has a length: how far apart places are says nothing of their unit."""
+    rows = (Row(0.0, 0.0, 0.0, RIGHT), Row(0.0, 0.0, 0.0, 0.0))
+    head = tk.Chain.from_dh([row.dh() for row in rows])
+    q = head.random(40, rng=0)
+    measured = head.fk(q + np.array([0.01, 0.02])) @ tk.transform(xyz=(0.1, 0.2, 0.3))
+    assert est.calibrate(head, q, measured).hints == ()
 
 
 def test_hints_of_nothing() -> None:
@@ -226,6 +268,23 @@ def test_one_reflector_that_was_never_seen() -> None:
     assert {f"points[1].{axis}" for axis in "xyz"} <= set(result.unidentifiable)
     assert_allclose(result.points[1], 0.0, atol=1e-12)
     assert not any(name.startswith("points[0]") for name in result.combinations if "," not in name)
+
+
+def test_a_known_reflector_that_was_never_seen() -> None:
+    """It does not spoil where Ceres begins."""
+    arm = tracked("seven axes")
+    tool = tk.transform(xyz=(0.1, 0.0, 0.2), rpy=(2.0, -1.0, 1.0))
+    points = (np.linalg.inv(tool) @ np.column_stack([arm.reflectors, np.ones(3)]).T)[:3].T
+    hidden = np.full((len(arm.q), 1, 3), np.nan)
+    three = est.calibrate(arm.nominal, arm.q, arm.measured, points=points)
+    four = est.calibrate(
+        arm.nominal,
+        arm.q,
+        np.concatenate([arm.measured, hidden], axis=1),
+        points=np.vstack([points, [0.3, 0.3, 0.3]]),
+    )
+    assert_allclose(four.tool, three.tool, atol=1e-6)
+    assert four.iterations == three.iterations
 
 
 def test_fewer_postures_than_it_takes() -> None:

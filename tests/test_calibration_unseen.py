@@ -130,3 +130,15 @@ def test_proposals_for_a_mobile_arm() -> None:
     )  # fmt: skip
     assert result.propose_postures(2, 200).shape == (2, 9)
     assert not result.degenerate
+
+
+@pytest.mark.parametrize("candidates", [np.empty((0, 6)), np.zeros(6), np.zeros((3, 5)), 0])
+def test_candidates_that_are_none(candidates: Array | int) -> None:
+    result = est.calibrate(ARM, Q, EXACT)
+    with pytest.raises(ValueError, match=r"^candidates: got"):
+        result.propose_postures(2, candidates)
+
+
+def test_proposals_for_an_arm_that_sags() -> None:
+    result = est.calibrate(ARM, Q, EXACT, sag=(1, 2))
+    assert result.propose_postures(2, 50).shape == (2, 6)

@@ -37,7 +37,9 @@ def public_things() -> Iterator[tuple[str, object]]:
 
 def class_and_members(path: str, thing: type) -> Iterator[tuple[str, object]]:
     yield path, thing
-    for name in vars(thing):
+    # What is inherited, too: a base need not be public itself.
+    ours = [base for base in thing.__mro__ if base.__module__.startswith("thing_kin")]
+    for name in dict.fromkeys(name for base in ours for name in vars(base)):
         # A field of a dataclass says what it is where it stands; its default here does not.
         if not name.startswith("_") and name not in getattr(thing, "__dataclass_fields__", {}):
             member = inspect.getattr_static(thing, name)
@@ -72,6 +74,7 @@ def test_the_walk_finds_the_api() -> None:
         "thing_kin.lie.se3_exp",
         "thing_kin.robots.thing",
         "thing_kin.kdl.KdlChain.jacobian",
+        "thing_kin.estimation.Calibration.readings",
     } <= set(THINGS)
     assert "thing_kin.Chain.lower" in PROPERTIES
     assert "thing_kin.Chain.fk" in WITH_EXAMPLES

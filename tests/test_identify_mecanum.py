@@ -315,3 +315,22 @@ def test_bad_records(name: str, arguments) -> None:
 def test_bad_options(name: str, value) -> None:
     with pytest.raises(ValueError, match=f"^{name}: got"):
         identify(simulate(duration=5.0), **{name: value})
+
+
+@pytest.mark.parametrize("nominal", [np.pi, -np.pi])
+@pytest.mark.parametrize("std", [3.0, 0.05])
+def test_a_reference_that_looks_backward(nominal: float, std: float) -> None:
+    """Half a turn is the same from either side."""
+    mount = np.array([0.08, -0.05, -3.13])
+    found = identify(simulate(mount=mount), mount=(0.08, -0.05, nominal), mount_std=(0.1, 0.1, std))
+    assert found.success
+    assert found.identifiable["mount_yaw"]
+    np.testing.assert_allclose(found.mount, mount, atol=0.02)
+
+
+@pytest.mark.parametrize("std", [3.0, 4.0, 8.0, 1e12])
+def test_clocks_that_may_be_off_by_more_than_the_record_lasts(std: float) -> None:
+    """Offsets at which the records hardly meet agree with anything."""
+    found = identify(simulate(duration=12.0), clock_offset_std=std)
+    assert found.success
+    assert found.clock_offset == pytest.approx(0.0, abs=0.02)

@@ -1,7 +1,5 @@
 #include "thing_kin/estimation/calibration.hpp"
 
-#include <algorithm>
-
 #include <pybind11/stl.h>
 
 #include "array.hpp"
@@ -21,13 +19,6 @@ const char* status_of(CalibrationStatus status) {
       break;
   }
   return "underdetermined";
-}
-
-Array bools(const std::vector<bool>& flags) {
-  const auto n = static_cast<py::ssize_t>(flags.size());
-  Array array = make_array(&n, 1);
-  std::ranges::copy(flags, array.mutable_data());
-  return array;
 }
 
 }  // namespace
@@ -67,17 +58,11 @@ void bind_calibration(py::module_& m) {
       .def_property_readonly("errors", [](const CalibrationFit& f) { return to_array(f.errors); })
       .def_property_readonly("distances",
                              [](const CalibrationFit& f) { return to_array(f.distances); })
-      .def_property_readonly("outliers", [](const CalibrationFit& f) { return bools(f.outliers); })
+      .def_readonly("outliers", &CalibrationFit::outliers)
       .def_property_readonly("rank", [](const CalibrationFit& f) { return f.sight.rank; })
-      .def_property_readonly(
-          "singular_values",
-          [](const CalibrationFit& f) { return to_array(f.sight.singular_values); })
       .def_property_readonly("covariance",
                              [](const CalibrationFit& f) { return to_array(f.sight.covariance); })
-      .def_property_readonly("is_told",
-                             [](const CalibrationFit& f) { return bools(f.sight.is_told); })
-      .def_property_readonly("unseen",
-                             [](const CalibrationFit& f) { return to_array(f.sight.unseen); });
+      .def_property_readonly("is_told", [](const CalibrationFit& f) { return f.sight.is_told; });
 }
 
 }  // namespace thing_kin::python

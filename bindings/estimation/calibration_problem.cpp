@@ -36,14 +36,6 @@ void bind_calibration_problem(py::module_& m) {
                                }
                                return names;
                              })
-      .def_property_readonly("deviations",
-                             [](const CalibrationProblem& p) {
-                               std::vector<double> deviations;
-                               for (const auto& parameter : p.parameters()) {
-                                 deviations.push_back(parameter.deviation);
-                               }
-                               return deviations;
-                             })
       .def_property_readonly("nominal",
                              [](const CalibrationProblem& p) { return to_array(p.nominal()); })
       .def_property_readonly("has_prior",

@@ -352,7 +352,8 @@ mount_std : (3,), m and rad
     Standard deviations; 0: exactly known.
 clock_offset_std : float, s
     Standard deviation of the wheels' stamps from the reference's clock; offsets up to three times
-    as large are searched. Default: one clock.
+    as large are searched, at most 20 s (50 windows, if those are shorter
+    than 0.4 s) and half of the record. Default: one clock.
 window : float, s
     Long enough to hold several reference poses, short enough that the wheels lead through it.
 longest_gap : float, s

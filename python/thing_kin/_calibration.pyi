@@ -28,7 +28,7 @@ class Fit:
     def errors(self) -> numpy.typing.NDArray[numpy.float64]:
         ...
     @property
-    def is_told(self) -> numpy.typing.NDArray[numpy.float64]:
+    def is_told(self) -> list[bool]:
         ...
     @property
     def iterations(self) -> int:
@@ -40,7 +40,7 @@ class Fit:
     def noise_is_estimated(self) -> bool:
         ...
     @property
-    def outliers(self) -> numpy.typing.NDArray[numpy.float64]:
+    def outliers(self) -> list[bool]:
         ...
     @property
     def points(self) -> list[int]:
@@ -52,16 +52,10 @@ class Fit:
     def rank(self) -> int:
         ...
     @property
-    def singular_values(self) -> numpy.typing.NDArray[numpy.float64]:
-        ...
-    @property
     def status(self) -> str:
         ...
     @property
     def tool(self) -> numpy.typing.NDArray[numpy.float64]:
-        ...
-    @property
-    def unseen(self) -> numpy.typing.NDArray[numpy.float64]:
         ...
     @property
     def values(self) -> numpy.typing.NDArray[numpy.float64]:
@@ -88,9 +82,6 @@ class Problem:
     def told_at(self, fit: Fit, q: typing.Any, torques: typing.Any) -> list[bool]:
         ...
     def unseen_in_words(self, fit: Fit) -> list[str]:
-        ...
-    @property
-    def deviations(self) -> list[float]:
         ...
     @property
     def has_prior(self) -> list[bool]:

@@ -7,6 +7,8 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+import numpy as np
+
 import thing_kin as tk
 
 OK, CHECKS_FAILED, USAGE = 0, 1, 2
@@ -122,13 +124,14 @@ def _calibrate(arguments: argparse.Namespace) -> int:
     try:
         chain = _robot(arguments)
         q, measured = calibration_table.read(arguments.table, chain, arguments.points)
+        distinct = len(np.unique(q.round(6), axis=0))  # equal postures stay in one fold
         result = est.calibrate(
             chain,
             q,
             measured,
             parameters=arguments.parameters.split(","),
             loss=arguments.loss,
-            folds=min(arguments.folds, len(q)),
+            folds=min(arguments.folds, distinct if distinct > 1 else 0),
             rng=arguments.seed,
         )
         print(result)

@@ -100,6 +100,16 @@ TEST(Calibration, RecenteredIsTheSameArm) {
   EXPECT_LT((before.matrix() - after.matrix()).norm(), 1e-14);
 }
 
+TEST(Calibration, WithoutTorquesNothingSags) {
+  const Chain chain = robots::ur5();
+  CalibrationModel model(chain, calibration_parameters(chain, {{"base", "sag"}, {}, 0, {3}}));
+  model.set({SE3{}, SE3{}, Eigen::VectorXd::Zero(7)});
+  const Eigen::VectorXd q = Eigen::VectorXd::LinSpaced(6, -1.0, 1.5);
+  TwistColumns twists(6, 7);
+  model.tool(q, Eigen::VectorXd(), &twists, nullptr);
+  EXPECT_EQ(twists.col(6).norm(), 0.0);
+}
+
 TEST(Calibration, JointTwistsAreTheJacobian) {
   const Chain chain = robots::ur5();
   CalibrationModel model(chain, calibration_parameters(chain, {{"base"}, {}, 0, {}}));

@@ -16,7 +16,7 @@ using Part = CalibrationPart;
 constexpr double kPlausibleLength = 0.02;      // m
 constexpr double kPlausibleAngle = 0.05;       // rad
 constexpr double kPlausibleScale = 0.05;       // of the reading
-constexpr double kPlausibleCompliance = 1e-3;  // rad for each N m
+constexpr double kPlausibleCompliance = 1e-3;  // rad for each N m, m for each N
 constexpr double kAnywhere = 10.0;             // m, rad: base, tool and points stand anywhere
 constexpr double kParallel = 0.1;              // sine of alpha: the next axis is nearly parallel
 

@@ -65,9 +65,11 @@ class Start {
       const Matrix3d axes = (found.points.rightCols<3>().colwise() - found.points.col(0)) / kLever;
       state.tool = {nearest_rotation(axes), found.points.col(0)};
     } else if (frees_tool_) {
-      const VectorXd all = VectorXd::Ones(points_.cols());
-      const SE3 moved = fitted_motion(points_, found.points, all);
-      state.tool = moved;
+      VectorXd times_seen = VectorXd::Zero(points_.cols());
+      for (const Sight& sight : sights_) {
+        times_seen[sight.point] += 1.0;
+      }
+      state.tool = fitted_motion(points_, found.points, times_seen);
     }
     for (int i = 0; i < model.size(); ++i) {
       const CalibrationParameter& parameter = model.parameters()[static_cast<std::size_t>(i)];
@@ -242,8 +244,11 @@ double misfit(CalibrationResiduals& residuals, const CalibrationState& state) {
 
 CalibrationState calibration_start(CalibrationModel& model, const CalibrationData& data,
                                    std::span<const int> postures, const CalibrationState& nominal) {
+  if (data.kind == CalibrationKind::kHits) {
+    return nominal;
+  }
   Start start(model, data, postures, nominal);
-  if (data.kind == CalibrationKind::kHits || !start.is_needed()) {
+  if (!start.is_needed()) {
     return nominal;
   }
   CalibrationState found = start.find(model);

@@ -35,9 +35,8 @@ void CalibrationModel::pass_joint(const Link& link, const SE3& frame, const Vect
     const auto k = static_cast<std::size_t>(i);
     const Part part = parameters_[k].part;
     if (is_reading(part)) {
-      screw.factor = part == Part::kScale ? q[link.joint]
-                     : part == Part::kSag ? torques[link.joint]
-                                          : 1.0;
+      const double torque = torques.size() > 0 ? torques[link.joint] : 0.0;
+      screw.factor = part == Part::kScale ? q[link.joint] : part == Part::kSag ? torque : 1.0;
       screws_[k] = screw;
     } else if (part == Part::kTheta || part == Part::kD) {
       screws_[k] = {screw.axis, screw.point, part == Part::kTheta, 1.0};

@@ -309,7 +309,8 @@ MecanumIdentification identify_mecanum(std::span<const double> t,
     converged = descend(fit, result.iterations);
   }
   result.status = converged ? MecanumStatus::kConverged : MecanumStatus::kNotConverged;
-  if (!fit.x.allFinite() || !fit.covariance().allFinite()) {  // nothing is known but the prior
+  // Nothing is known but the prior; a clock offset may have left the record.
+  if (fit.windows().empty() || !fit.x.allFinite() || !fit.covariance().allFinite()) {
     fit.x = fit.prior;
     fit.held.fill(true);
     result.status = MecanumStatus::kNotConverged;

@@ -131,7 +131,8 @@ MecanumFit::Normal MecanumFit::with_prior(Normal normal) const {
     } else {
       const double information = 1.0 / (prior_std[i] * prior_std[i]);
       normal.H(i, i) += information;
-      normal.g[i] += information * (x[i] - prior[i]);
+      const double off = x[i] - prior[i];
+      normal.g[i] += information * (i == 4 ? wrap_angle(off) : off);
     }
   }
   return normal;

@@ -74,14 +74,15 @@ void MecanumFit::guess() {
     return;
   }
   const double step = std::min(0.1, 0.25 * window_);
-  const int most = std::min(200, static_cast<int>(std::ceil(3.0 * prior_std[5] / step)));
+  const int most = static_cast<int>(std::min(200.0, std::ceil(3.0 * prior_std[5] / step)));
+  const std::size_t least = rolled_.size() / 2;  // fewer may agree by chance, and none always do
   double best = std::numeric_limits<double>::infinity();
   double offset = 0.0;
   for (int i = -most; i <= most; ++i) {
     x[5] = i * step;
     linearize();
     const double here = misfit(windows_, rolled_);
-    if (here < best) {
+    if (rolled_.size() >= least && here < best) {
       best = here;
       offset = x[5];
     }

@@ -40,7 +40,7 @@ class CalibratedArm(CalibrationResult):
 
     @property
     def compliances(self) -> Array:
-        """(n,), rad for each N m of the loads' torque; 0 where not estimated."""
+        """(n,), rad for each N m of the loads' torque, m for each N; 0 where not estimated."""
         return self._by_joint("sag")
 
     def readings(self, q: ArrayLike) -> Array:
@@ -64,7 +64,7 @@ class CalibratedArm(CalibrationResult):
         >>> bool((result.readings(q) == q).all())
         True
         """
-        q = np.asarray(q, dtype=float)
+        q = self._run.read_postures(q, "q")
         sag = self._run.torques(q)
         corrected: Array = q * self.joint_scales
         return corrected if sag is None else corrected + self.compliances * sag
@@ -172,10 +172,10 @@ class CalibratedArm(CalibrationResult):
     def _unit(self, name: str) -> str:
         group, _, last = name.partition(".")
         group, _, place = group.rstrip("]").partition("[")
-        if group == "joint_offsets":
-            return "m" if self.chain.joint_types[int(place)] == "prismatic" else "rad"
         if group == "joint_scales":
             return "1"
-        if group == "sag":
-            return "rad/(N m)"
+        if group in ("joint_offsets", "sag"):
+            slides = self.chain.joint_types[int(place)] == "prismatic"
+            units = ("m", "m/N") if slides else ("rad", "rad/(N m)")
+            return units[group == "sag"]
         return "m" if last in ("x", "y", "z", "d", "a") else "rad"

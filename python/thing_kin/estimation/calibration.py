@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from thing_kin.estimation import calibration_arguments as arguments
+from thing_kin.estimation.calibration_base import check_folds
 from thing_kin.estimation.calibration_result import Calibration
 from thing_kin.estimation.calibration_run import CalibrationRun
 
@@ -106,7 +107,8 @@ def calibrate(
     rng : int or Generator
         Draws the folds.
     sag : sequence of joint names or indices
-        Joints that gravity turns, by a compliance (rad for each N m) times its torque.
+        Joints that gravity turns, by a compliance (rad for each N m) times its torque, or shifts
+        (m for each N).
     loads : sequence of (frame, point, kg)
         What gravity pulls at. Default: one kg at the last frame, so that compliances are for each
         kg there.
@@ -136,8 +138,7 @@ def calibrate(
     >>> result.unidentifiable
     ('base.rz', 'tool.rz', 'joint_offsets[0]', 'joint_offsets[5]')
     """
-    if folds < 0 or folds == 1:
-        raise ValueError(f"folds: got {folds}, expected 0 or at least 2")
+    check_folds(folds, or_none=True)
     core = _module()
     shape = arguments.shape_of(measured, q, chain.n)
     kind = kind or ("points" if shape[-1:] == (3,) else "poses")
@@ -150,7 +151,8 @@ def calibrate(
         names += [] if "points" in names else ["points"]
     joints = [arguments.joint_of(chain, name) for name in sag]
     names += ["sag"] if joints and "sag" not in names else []
-    joint_covariance = arguments.joint_covariance(core, chain, q_covariance, base_covariance)
+    count = shape[0] if shape else 0
+    joint_covariance = arguments.joint_covariance(core, chain, count, q_covariance, base_covariance)
 
     down = core.numbers(gravity, "gravity", (3,), False, False)
 
@@ -222,9 +224,6 @@ def _result(run: CalibrationRun, estimates_noise: bool, points: ArrayLike | None
         distances=distances if k > 1 else distances[:, 0],
         outliers=tuple(outliers if k > 1 else (posture for posture, _ in outliers)),
         iterations=fit.iterations,
-        cross_validated_rms_position=nan,
-        cross_validated_rms_rotation=nan,
-        fold_rms=(),
         _run=run,
     )
 

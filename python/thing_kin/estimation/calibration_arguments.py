@@ -31,11 +31,9 @@ def torques_of(chain: tk.Chain, q: ArrayLike, loads: Sequence[Load], gravity: Ar
 
 
 def shape_of(measured: ArrayLike, q: ArrayLike, n: int) -> tuple[int, ...]:
-    """() for what is no array, as it is where q is no (N, n): the core says so."""
-    try:
-        shape, of_q = np.shape(measured), np.shape(q)
-    except ValueError:
-        return ()
+    """As it is where q is no (N, n): the core says so."""
+    shape = _shape(measured, "measured")
+    of_q = _shape(q, "q")
     fits = shape[1:] in ((4, 4), (3,)) or (len(shape) == 3 and shape[2] == 3)
     is_known = len(of_q) == 2 and of_q[1] == n and of_q[0] > 0
     if is_known and not (fits and shape[0] == of_q[0]):
@@ -45,6 +43,14 @@ def shape_of(measured: ArrayLike, q: ArrayLike, n: int) -> tuple[int, ...]:
             f"measured: got shape {shape}, expected one for each of {count} postures: {expected}"
         )
     return shape
+
+
+def _shape(argument: ArrayLike, name: str) -> tuple[int, ...]:
+    try:
+        return np.shape(argument)
+    except ValueError as error:  # lists of several lengths
+        kind = type(argument).__name__
+        raise ValueError(f"{name}: got {kind}, expected an array of real numbers") from error
 
 
 def places_of(measured: ArrayLike) -> Array:
@@ -77,17 +83,25 @@ def joint_of(chain: tk.Chain, name: str | int) -> int:
 
 
 def joint_covariance(
-    core: Any, chain: tk.Chain, joints: ArrayLike | None, base: ArrayLike | None
+    core: Any, chain: tk.Chain, count: int, joints: ArrayLike | None, base: ArrayLike | None
 ) -> ArrayLike | None:
-    """One covariance of all joints: that of the base's three stands in its place."""
+    """One covariance of all joints, or `count`: that of the base's three stands in its place."""
     if base is None:
         return joints
     where = list(chain.base_joints or ())
     if not where:
         raise ValueError(f"base_covariance: got one for {chain.name}, expected a mobile base")
-    given = core.numbers(base, "base_covariance", (3, 3), True, True)
+    given = _covariances(core, base, "base_covariance", 3, count)
     whole = np.zeros((*given.shape[:-2], chain.n, chain.n))
     if joints is not None:
-        whole = whole + core.numbers(joints, "q_covariance", (chain.n, chain.n), True, True)
+        whole = whole + _covariances(core, joints, "q_covariance", chain.n, count)
     whole[..., np.ix_(where, where)[0], np.ix_(where, where)[1]] += given
     return whole
+
+
+def _covariances(core: Any, argument: ArrayLike, name: str, size: int, count: int) -> Array:
+    """One, or one for each posture: then they can be added to others."""
+    given: Array = core.numbers(argument, name, (size, size), True, True)
+    if given.ndim == 3 and len(given) != count:
+        raise ValueError(f"{name}: got {len(given)} covariances, expected one, or {count}")
+    return given

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -12,6 +12,7 @@ from thing_kin.estimation import calibration_words
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+    from typing_extensions import Self
 
 __all__ = ["CalibratedNumber", "CalibrationResult"]
 
@@ -30,7 +31,7 @@ class CalibratedNumber:
     std : float
         Of the value, in `unit`; inf: the data do not tell it.
     unit : str
-        "m", "rad", "s", "1" or "rad/(N m)".
+        "m", "rad", "s", "1", "rad/(N m)" or "m/N".
 
     Examples
     --------
@@ -75,8 +76,6 @@ class CalibrationResult:
         These combinations: motions of parameters that change nothing which was measured.
     errors : (N, ...)
         Measured less predicted, position first; NaN where nothing was measured.
-    errors_nominal : (N, ...)
-        The same by nominal numbers.
     distances : (N, ...)
         Of the measurements, in deviations of their residuals.
     outliers : tuple
@@ -107,9 +106,9 @@ class CalibrationResult:
     errors: Array
     distances: Array
     outliers: tuple[Any, ...]
-    cross_validated_rms_position: float
-    cross_validated_rms_rotation: float
-    fold_rms: tuple[float, ...]
+    cross_validated_rms_position: float = float("nan")
+    cross_validated_rms_rotation: float = float("nan")
+    fold_rms: tuple[float, ...] = ()
 
     _position_numbers: ClassVar[int] = 3  # of a measurement's errors
     _measurement: ClassVar[str] = "posture"
@@ -166,6 +165,17 @@ class CalibrationResult:
                 self.std.tolist(),
                 strict=True,
             )
+        )
+
+    def _judged_by_folds(self, errors: list[Array]) -> Self:
+        """Return the same with the rms of errors that other folds leave, an array for each fold."""
+        m = self._position_numbers
+        everything = np.concatenate(errors)
+        return replace(
+            self,
+            cross_validated_rms_position=rms(everything[:, :m]),
+            cross_validated_rms_rotation=rms(everything[:, m:]),
+            fold_rms=tuple(rms(e[:, :m]) for e in errors),
         )
 
     def _unit(self, name: str) -> str:
@@ -225,3 +235,10 @@ def rms(errors: Array) -> float:
     squares = np.sum(errors * errors, axis=-1)
     seen = squares[np.isfinite(squares)]
     return float(np.sqrt(seen.mean())) if seen.size and errors.shape[-1] else float("nan")
+
+
+def check_folds(folds: int, or_none: bool = False) -> None:
+    """One alone would leave nothing to estimate from."""
+    if folds < 2 and not (or_none and folds == 0):
+        expected = "0 or at least 2" if or_none else "at least 2"
+        raise ValueError(f"folds: got {folds}, expected {expected}")

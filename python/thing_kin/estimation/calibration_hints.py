@@ -31,17 +31,18 @@ def hints_of(result: Calibration) -> tuple[str, ...]:
     hints = []
     turning = [kind != "prismatic" for kind in run.chain.joint_types]
     most = np.abs(run.q[:, turning]).max(initial=0.0)
-    if most > MOST_TURNS and not _fits(result):
+    fits = _fits(result)
+    if most > MOST_TURNS and not fits:
         hints.append(f"q is up to {most:.3g}: degrees in place of radians?")
     ratio = (
         0.0 if result.errors.shape[-1] == 2 else _extent(run.places) / max(_reach(result), 1e-12)
     )
-    if ratio > OTHER_UNIT:
+    if ratio > OTHER_UNIT and not fits:  # it does where no link has a length, but the tool has
         hints.append(
             f"measured places are {ratio:.2g} times as far apart as the arm can have moved: "
             "millimeters in place of meters?"
         )
-    if not hints and not _fits(result):
+    if not hints and not fits:
         hints.append(
             "what is left is a tenth of how far the arm has moved, or more: postures or joints in "
             "another order, another arm, poses of the world in the tool?"

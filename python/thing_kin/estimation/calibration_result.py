@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from thing_kin.estimation import calibration_hints, calibration_words
 from thing_kin.estimation.calibrated_arm import CalibratedArm
-from thing_kin.estimation.calibration_base import rms
+from thing_kin.estimation.calibration_base import check_folds
 
 __all__ = ["Calibration"]
 
@@ -23,7 +23,7 @@ class Calibration(CalibratedArm):
     """The arm as calibrated, and how sure that is.
 
     Returned by `calibrate`. "Nominal" is the chain as it came, with base and tool (or points) as
-    they fit it best.
+    they fit it best. What is not said here is as `CalibrationResult` has it.
 
     Parameters
     ----------
@@ -35,21 +35,15 @@ class Calibration(CalibratedArm):
         base @ chain.fk(q) @ tool is the tool in the world.
     points : (k, 3), m
         Measured points on the tool.
-    names : tuple of str
-        Of all parameters.
     nominal : (p,)
         Their values before: a row's own numbers, points as given, 1 for scales, 0 for differences.
     values : (p,)
         Of the parameters, as differences from nominal, m and rad. Base: x, y, z and a rotation
         vector in the root's nominal axes; tool: the same in the last frame's.
-    std : (p,)
-        Standard deviations by the data and by the priors that were given; inf: the data don't tell.
     covariance : (p, p)
         With what is not told held within plausible bounds (20 mm, 50 mrad, 5 % for an arm's own).
-    unidentifiable : tuple of str
-        Parameters that are part of a combination which the data don't tell.
     combinations : tuple of str
-        These combinations: motions of parameters (m, rad) that change nothing which was measured.
+        Motions of parameters (m, rad) that change nothing which was measured.
     rank : int
         How many combinations of parameters the data tell.
     noise_position, noise_rotation : float
@@ -68,10 +62,6 @@ class Calibration(CalibratedArm):
         Of the measurements, in deviations of their residuals.
     outliers : tuple of int or of (int, int)
         Postures, or postures and points, beyond the gate.
-    cross_validated_rms_position, cross_validated_rms_rotation : float
-        Of all measurements, each predicted by those of other folds; NaN: not done.
-    fold_rms : tuple of float
-        The first for each fold.
     iterations : int
         Of Ceres, in all.
 
@@ -186,13 +176,8 @@ class Calibration(CalibratedArm):
         >>> len(result.fold_rms), result.cross_validated_rms_position < 1e-5
         (3, True)
         """
-        errors = self._run.held_out_errors(folds, rng)
-        return replace(
-            self,
-            cross_validated_rms_position=rms(np.concatenate([e[:, :3] for e in errors])),
-            cross_validated_rms_rotation=rms(np.concatenate([e[:, 3:] for e in errors])),
-            fold_rms=tuple(rms(e[:, :3]) for e in errors),
-        )
+        check_folds(folds)
+        return self._judged_by_folds(self._run.held_out_errors(folds, rng))
 
     @cached_property
     def _errors_nominal(self) -> Array:

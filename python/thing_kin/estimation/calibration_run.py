@@ -34,17 +34,23 @@ class CalibrationRun:
         """All postures."""
         return list(range(len(self.q)))
 
+    def read_postures(self, q: ArrayLike, name: str) -> Array:
+        """(n,) or (N, n), checked; else ValueError."""
+        from thing_kin import _calibration
+
+        return _calibration.numbers(q, name, (self.chain.n,), True, False)
+
     def told_at(self, q: Array) -> Array:
         """Whether measurements at these postures would tell each parameter."""
         return np.asarray(self.problem.told_at(self.fit, q, self.torques(q)), dtype=bool)
 
     def most_telling(self, candidates: ArrayLike, count: int) -> Array:
         """Choose the best of the candidates, one after the other."""
-        self.problem.most_telling(self.fit, candidates, None, 0)  # says if they are none
-        q = np.asarray(candidates, dtype=float)
-        return np.asarray(
-            q[self.problem.most_telling(self.fit, q, self.torques(q), count)], dtype=float
-        )
+        q = self.read_postures(candidates, "candidates")
+        if q.ndim != 2 or not len(q):
+            n = self.chain.n
+            raise ValueError(f"candidates: got shape {q.shape}, expected (N, {n}), N at least 1")
+        return np.asarray(q[self.problem.most_telling(self.fit, q, self.torques(q), count)])
 
     def errors_nominal(self, names: tuple[str, ...]) -> Array:
         """Of the nominal chain, only its places fitted."""

@@ -19,7 +19,7 @@ __all__ = ["calibration_report"]
 
 MOST_LISTED = 20
 SHOWN_AS = {"m": ("mm", 1e3), "rad": ("mrad", 1e3), "s": ("ms", 1e3), "1": ("%", 1e2),
-            "rad/(N m)": ("mrad/(N m)", 1e3)}  # fmt: skip
+            "rad/(N m)": ("mrad/(N m)", 1e3), "m/N": ("mm/N", 1e3)}  # fmt: skip
 
 
 def calibration_report(**parts: CalibrationResult) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from thing_kin import _estimation
-from thing_kin.estimation.calibration_base import CalibrationResult, rms
+from thing_kin.estimation.calibration_base import CalibrationResult, check_folds
 from thing_kin.estimation.mecanum_run import MecanumRun
 
 if TYPE_CHECKING:
@@ -103,13 +103,8 @@ class MecanumCalibration(CalibrationResult):
         >>> len(found.cross_validated(3).fold_rms)
         3
         """
-        errors = self._run.held_out_errors(folds)
-        return replace(
-            self,
-            cross_validated_rms_position=rms(np.concatenate([e[:, :2] for e in errors])),
-            cross_validated_rms_rotation=rms(np.concatenate([e[:, 2:] for e in errors])),
-            fold_rms=tuple(rms(e[:, :2]) for e in errors),
-        )
+        check_folds(folds)
+        return self._judged_by_folds(self._run.held_out_errors(folds))
 
     @cached_property
     def _errors_nominal(self) -> Array:
@@ -193,8 +188,7 @@ def calibrate_mecanum(
     >>> [(row.name, round(row.nominal, 3), round(row.value, 3)) for row in found.table[:2]]
     [('wheel_radius', 0.08, 0.07), ('k', 0.5, 0.4)]
     """
-    if folds < 0 or folds == 1:
-        raise ValueError(f"folds: got {folds}, expected 0 or at least 2")
+    check_folds(folds, or_none=True)
     if not 0.0 < gate < 1.0:
         raise ValueError(f"gate: got {gate}, expected a probability between 0 and 1")
     known = {"wheel_radius": wheel_radius, "k": k, **options}
@@ -207,39 +201,34 @@ def calibrate_mecanum(
         np.array(x, dtype=float) for x in (t, wheel_angles, t_reference, poses)
     )
     run = MecanumRun(at, angles, at_reference, seen, order, nominal, known)
-    times, errors, covariances = run.motion_errors(found)
-    distances = np.sqrt(np.einsum("ni,nij,nj->n", errors, np.linalg.inv(covariances), errors))
-    bound = float(_estimation.chi_square_quantile(gate, 3))
-    result = _result(found, run, distances, bound, times, errors)
+    result = _result(found, run, gate)
     return result.cross_validated(folds) if folds else result
 
 
-def _result(
-    found: MecanumIdentification, run: MecanumRun, distances: Array, bound: float,
-    times: Array, errors: Array,
-) -> MecanumCalibration:  # fmt: skip
+def _result(found: MecanumIdentification, run: MecanumRun, gate: float) -> MecanumCalibration:
+    times, errors, covariances = run.motion_errors(found)
+    white = np.linalg.solve(covariances, errors[..., None])[..., 0]
+    squares = np.sum(errors * white, axis=1)
+    bound = _estimation.chi_square_quantile(gate, 3)
     variances = np.diag(found.covariance)
     told = np.array([found.identifiable[name] for name in found.names])
     asked = np.flatnonzero(told | (variances > 0.0))  # what is neither was given as known
-    values = np.array([found.wheel_radius, found.k, *found.mount, found.clock_offset])
+    values = np.array([found.wheel_radius, found.k, *found.mount, found.clock_offset]) - run.nominal
+    values[2:5] = _estimation.pose_difference(found.mount, run.nominal[2:5])  # yaw within a turn
     names = tuple(found.names[i] for i in asked)
     untold = tuple(found.names[i] for i in asked if not told[i])
-    nan = float("nan")
     return MecanumCalibration(
         status=found.status,
         names=names,
         nominal=run.nominal[asked],
-        values=(values - run.nominal)[asked],
+        values=values[asked],
         std=np.where(told, np.sqrt(variances), np.inf)[asked],
         covariance=found.covariance[np.ix_(asked, asked)],
         unidentifiable=untold,
         combinations=untold,
         errors=errors,
-        distances=distances,
-        outliers=tuple(np.flatnonzero(distances**2 > bound).tolist()),
-        cross_validated_rms_position=nan,
-        cross_validated_rms_rotation=nan,
-        fold_rms=(),
+        distances=np.sqrt(squares),
+        outliers=tuple(np.flatnonzero(squares > bound).tolist()),
         identification=found,
         times=times,
         _run=run,

@@ -32,33 +32,30 @@ class MecanumRun:
 
     def motion_errors(self, found: MecanumIdentification) -> tuple[Array, Array, Array]:
         """Return times of motions between windows, their errors (N, 3) and covariances."""
-        return self.errors_by(found.odometry, found.mount, found.clock_offset, found)
+        return self._errors_by(found.odometry, found)
 
     def errors_nominal(self, found: MecanumIdentification) -> Array:
         """By nominal wheels; where the body is on the robot, and the clocks, as found."""
         nominal = _estimation.MecanumOdometry(self.nominal[0], self.nominal[1], self.order)
-        return self.errors_by(nominal, found.mount, found.clock_offset, found)[1]
+        return self._errors_by(nominal, found)[1]
 
-    def errors_by(
-        self, wheels: MecanumOdometry, mount: Array, offset: float, noise: MecanumIdentification
+    def _errors_by(
+        self, wheels: MecanumOdometry, found: MecanumIdentification
     ) -> tuple[Array, Array, Array]:
         """Return what the reference saw between windows, less what these wheels say."""
-        t = self.t - offset
-        path = lie.se2_compose(wheels.integrate_angles(t, self.wheel_angles).poses, mount)
-        path[:, 2] = np.unwrap(path[:, 2])
+        t = self.t - found.clock_offset
+        path = lie.se2_compose(wheels.integrate_angles(t, self.wheel_angles).poses, found.mount)
         middles, seen = self._windows(t, path)
         along = _at(middles, t, path)
         errors = lie.se2_log(lie.se2_between(_steps(along), _steps(seen)))
         rolled = np.abs(np.diff(self.wheel_angles, axis=0)).mean(axis=1) * wheels.wheel_radius
         travel = np.diff(np.interp(middles, t, np.concatenate([[0.0], np.cumsum(rolled)])))
-        shared = 2.0 * noise.reference_std**2 + 1e-12
-        variances = shared + noise.slip_variance * travel[:, None]
+        of_reference = np.diag(2.0 * found.reference_std**2 + 1e-12)  # at both ends
+        seen_from = lie.se2_adjoint(lie.se2_inverse(found.mount))  # slip is in the robot's axes
+        of_slip = (seen_from * found.slip_variance) @ seen_from.T
+        covariances = of_reference + travel[:, None, None] * of_slip
         whole = self._whole(t, middles)
-        return (
-            middles[:-1][whole],
-            errors[whole],
-            np.einsum("ni,ij->nij", variances, np.eye(3))[whole],
-        )
+        return middles[:-1][whole], errors[whole], covariances[whole]
 
     def held_out_errors(self, folds: int) -> list[Array]:
         """Errors in each of so many stretches of time, by what the others tell."""
@@ -99,23 +96,21 @@ class MecanumRun:
         """
         covered = (self.t_reference >= t[0]) & (self.t_reference <= t[-1])
         stamps, poses = self.t_reference[covered], self.poses[covered]
-        if not len(stamps):
-            return np.empty(0), np.empty((0, 3))
         window = self.known.get("window", WINDOW)
-        number = np.floor((stamps - stamps[0]) / window).astype(int)
-        middles = stamps[0] + (number + 0.5) * window
+        number = np.floor((stamps - stamps[:1]) / window).astype(int)
+        middles = stamps[:1] + (number + 0.5) * window
         inside = middles <= t[-1]
         stamps, poses, number, middles = (x[inside] for x in (stamps, poses, number, middles))
         way = lie.se2_between(_at(stamps, t, path), _at(middles, t, path))
         carried = lie.se2_compose(poses, way)
         windows, starts = np.unique(number, return_index=True)
         seen = np.empty((len(windows), 3))
-        for i, mine in enumerate(np.split(np.arange(len(number)), starts[1:])):
+        for i, mine in enumerate(np.split(np.arange(len(number)), starts)[1:]):
             yaw = carried[mine[0], 2]
             near = carried[mine]
             near[:, 2] = yaw + np.angle(np.exp(1j * (near[:, 2] - yaw)))
             seen[i] = np.median(near, axis=0)
-        return stamps[0] + (windows + 0.5) * window if len(stamps) else middles, seen
+        return middles[starts], seen
 
     def _whole(self, t: Array, middles: Array) -> NDArray[np.bool_]:
         """Of motions: no long gap of the wheels in them."""
@@ -135,4 +130,10 @@ def _steps(poses: Array) -> Array:
 
 
 def _at(stamps: Array, t: Array, path: Array) -> Array:
-    return np.stack([np.interp(stamps, t, column) for column in path.T], axis=1)
+    """On the arcs from each pose to the next; the first and last pose beyond them."""
+    step = np.clip(np.searchsorted(t, stamps, side="right") - 1, 0, len(t) - 2)
+    duration = np.diff(t)[step]
+    lasts = duration > 0.0
+    part = np.where(lasts, (stamps - t[step]) / np.where(lasts, duration, 1.0), 1.0).clip(0.0, 1.0)
+    arcs = lie.se2_log(_steps(path))[step]
+    return np.asarray(lie.se2_compose(path[step], lie.se2_exp(part[:, None] * arcs)))

@@ -51,7 +51,7 @@ def plot_calibration(result: CalibrationResult) -> Figure:
     for outlier in result.outliers:
         posture, point = outlier if isinstance(outlier, tuple) else (outlier, 0)
         parts["errors"].plot(posture, after[posture, point], "o", mfc="none", mec=RED, ms=10)
-    title = f"rms {_rms(before):.3g} mm to {_rms(after):.3g} mm"
+    title = f"rms {1e3 * result.rms_position_nominal:.3g} mm to {1e3 * result.rms_position:.3g} mm"
     tidy(parts["errors"], title=title, xlabel=result._measurement, ylabel="error [mm]")
     tidy(parts["share"], xlabel="error [mm]", ylabel="share")
     parts["errors"].legend(loc="best", frameon=False)
@@ -64,10 +64,6 @@ def _lengths(errors: Array) -> Array:
     lengths: Array = 1e3 * np.linalg.norm(errors, axis=-1)
     lengths = np.maximum(lengths, 1e-9)  # on a logarithmic axis
     return lengths if lengths.ndim > 1 else lengths[:, None]
-
-
-def _rms(lengths: Array) -> float:
-    return float(np.sqrt(np.nanmean(lengths**2)))
 
 
 def _values(axes: Axes, result: CalibrationResult) -> None:

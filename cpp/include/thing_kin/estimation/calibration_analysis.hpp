@@ -27,7 +27,7 @@ CalibrationSight calibration_sight(const RowMajorMatrix& J,
                                    std::span<const CalibrationParameter> parameters,
                                    double inflation = 1.0);
 
-/// "joint_offsets[0] +1 with base.rz -1": a line for each column of `unseen`.
+/// "base.rz +1, joint_offsets[0] -1": a line for each column of `unseen`.
 std::vector<std::string> unseen_in_words(const CalibrationSight& sight,
                                          std::span<const CalibrationParameter> parameters);
 

@@ -26,7 +26,7 @@ enum class CalibrationPart : std::uint8_t {
   kPoint,   ///< a measured point in the tool
 };
 
-/// One number that is estimated. Its nominal value is zero, but for points.
+/// One number that is estimated: a difference from its nominal value.
 struct CalibrationParameter {
   std::string name;  ///< "joint_offsets[2]", "dh[1].alpha", "base.x", ...
   CalibrationPart part = CalibrationPart::kOffset;
