@@ -123,7 +123,7 @@ def simulate(
 
 
 def _root(covariance: ArrayLike, size: int, name: str) -> Array:
-    """Give a G with G G^T the covariance, which may be semidefinite."""
+    """Give the G = G^T with G G the covariance, which may be semidefinite."""
     matrix = np.asarray(covariance, dtype=np.float64)
     if matrix.shape != (size, size) or not np.isfinite(matrix).all():
         raise ValueError(f"{name}: got shape {matrix.shape}, expected finite ({size}, {size})")
@@ -131,9 +131,10 @@ def _root(covariance: ArrayLike, size: int, name: str) -> Array:
 
 
 def _spectral_root(matrix: Array) -> Array:
+    """Give the symmetric one: unlike eigenvectors' signs it is the same by every LAPACK."""
     values, vectors = np.linalg.eigh(matrix)
     scaled: Array = vectors * np.sqrt(np.maximum(values, 0.0))[..., None, :]
-    return scaled
+    return scaled @ np.swapaxes(vectors, -1, -2)
 
 
 def _noise_root(f: object, x: Array, dt: float | None) -> Array:
