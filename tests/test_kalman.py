@@ -214,6 +214,31 @@ def test_nees_and_nis_of_the_linear_filter_are_in_their_bands() -> None:
         assert report.consistent, str(report)
 
 
+def test_steps_that_depend_on_each_other_are_no_reason_for_doubt() -> None:
+    """NEES of a filter that is right, its errors correlated by 0.9 from step to step."""
+
+    def squares(rng: np.random.Generator, correlation: float) -> Array:
+        errors = rng.standard_normal((500, 40, 6))
+        for k in range(1, 40):
+            new = np.sqrt(1.0 - correlation**2) * errors[:, k]
+            errors[:, k] = correlation * errors[:, k - 1] + new
+        return np.sum(errors**2, axis=2)
+
+    drawn = [squares(np.random.default_rng(seed), 0.9) for seed in range(100)]
+    reports = [est.consistency_report(d, 6) for d in drawn]
+    assert sum(r.consistent for r in reports) >= 97
+    # Of squares: their correlation is 0.9^2, and (1 + r)/(1 - r) is 9.5.
+    assert 3.5 < np.median([r.independent for r in reports]) < 6.0
+    assert not any(est.consistency_report(scale * d, 6).consistent for d in drawn[:20]
+                   for scale in (0.85, 1.15))  # fmt: skip
+    alone = est.consistency_report(squares(np.random.default_rng(0), 0.0), 6)
+    assert 33 < alone.independent <= 40
+    missing = np.where(np.random.default_rng(1).random((500, 40)) < 0.3, np.nan, drawn[0])
+    missing[7] = np.nan
+    assert est.consistency_report(missing, 6).consistent
+    assert est.consistency_report(drawn[0][0], 6).independent == 40
+
+
 @pytest.mark.parametrize("bad", [np.nan, np.inf])
 def test_bad_numbers_are_refused_and_change_nothing(bad: float) -> None:
     filter = est.KalmanFilter(X0, P0)

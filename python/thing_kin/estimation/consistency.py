@@ -33,6 +33,9 @@ class ConsistencyReport:
         The fraction of steps in the band; a consistent filter has about `probability`.
     above : float
         The fraction of steps above it.
+    independent : float
+        So many independent steps tell as much as those of a run, which depend on each other; by
+        how the runs scatter. Of a single run: all its steps.
 
     Examples
     --------
@@ -53,15 +56,19 @@ class ConsistencyReport:
     mean: float
     inside: float
     above: float
+    independent: float
 
     @property
     def consistent(self) -> bool:
         """Whether the mean is in the band, and as many steps are as should be but for chance.
 
         Samples of one run depend on each other, so that the band of the mean over all is taken as
-        wide as that of one step; the steps inside may be short of `probability` by 0.05.
+        wide as that of one step; the steps inside may be short of `probability` by 0.05, and by
+        two standard deviations of such a share of `independent` steps.
         """
-        return self.lower <= self.mean <= self.upper and self.inside >= self.probability - 0.05
+        p = self.probability
+        chance = max(0.05, 2.0 * np.sqrt(p * (1.0 - p) / self.independent))
+        return bool(self.lower <= self.mean <= self.upper and self.inside >= p - chance)
 
     def __str__(self) -> str:
         verdict = "consistent"
@@ -136,4 +143,16 @@ def consistency_report(
         mean=float(samples[counted].mean()),
         inside=float(((low <= per_step) & (per_step <= high)).mean()),
         above=float((per_step > high).mean()),
+        independent=_independent(samples[counted.any(axis=1)][:, steps]),
     )
+
+
+def _independent(samples: Array) -> float:
+    """How many steps the means of single runs scatter like those of, were they independent."""
+    runs, steps = samples.shape
+    if runs < 2:
+        return float(steps)
+    of_step = np.nanstd(samples, axis=0)
+    scatter = np.where(of_step > 0.0, of_step, 1.0)
+    means = np.nanmean((samples - np.nanmean(samples, axis=0)) / scatter, axis=1)
+    return float(steps / np.clip(steps * np.nanvar(means), 1.0, steps))
