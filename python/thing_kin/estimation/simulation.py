@@ -133,8 +133,9 @@ def _root(covariance: ArrayLike, size: int, name: str) -> Array:
 def _spectral_root(matrix: Array) -> Array:
     """Give the symmetric one: unlike eigenvectors' signs it is the same by every LAPACK."""
     values, vectors = np.linalg.eigh(matrix)
-    scaled: Array = vectors * np.sqrt(np.maximum(values, 0.0))[..., None, :]
-    return scaled @ np.swapaxes(vectors, -1, -2)
+    scaled = vectors * np.sqrt(np.maximum(values, 0.0))[..., None, :]
+    root: Array = scaled @ np.swapaxes(vectors, -1, -2)
+    return root
 
 
 def _noise_root(f: object, x: Array, dt: float | None) -> Array:
