@@ -38,6 +38,35 @@ TEST(LocalMap, MergesWhatIsNearAndOfOneKind) {
   EXPECT_EQ(map.surfels().size(), 4U);
 }
 
+TEST(LocalMap, BridgesNeighborsOnOneWall) {
+  const Vector2d facing(-1.0, 0.0);
+  const auto of_two = [](const Vector2d& p, const Vector2d& q, const Vector2d& n, const Vector2d& m,
+                         int beam) {
+    PlanarScan scan = row_of({p}, n);
+    scan.push_back(row_of({q}, m)[0]);
+    scan[1].beam = beam;
+    LocalMap map;
+    map.insert(scan, Pose2::Zero(), 7.0);
+    return map;
+  };
+  const LocalMap bridged = of_two({1.0, 0.0}, {1.01, 0.45}, facing, facing, 1);
+  ASSERT_EQ(bridged.surfels().size(), 4U);
+  for (const Surfel& surfel : bridged.surfels()) {
+    EXPECT_NEAR(surfel.p.x(), 1.0 + 0.01 * surfel.p.y() / 0.45, 1e-12);
+    EXPECT_EQ(surfel.seen, 7.0);
+    EXPECT_EQ(surfel.weight, surfel.p.y() == 0.0 || surfel.p.y() == 0.45 ? 1.0 : 1.0 / 3.0);
+  }
+  EXPECT_NE(bridged.nearest({1.0, 0.225}, facing, 0.1), nullptr);
+
+  const Vector2d aslant(-0.7, 0.7);
+  EXPECT_EQ(of_two({1.0, 0.0}, {1.0, 0.45}, facing, facing, 3).surfels().size(), 2U);  // far beams
+  EXPECT_EQ(of_two({1.0, 0.0}, {1.0, 0.55}, facing, facing, 1).surfels().size(), 2U);  // a gap
+  EXPECT_EQ(of_two({1.0, 0.0}, {1.0, 0.15}, facing, facing, 1).surfels().size(), 2U);  // no need
+  EXPECT_EQ(of_two({1.0, 0.0}, {1.2, 0.4}, facing, facing, 1).surfels().size(), 2U);   // a step
+  EXPECT_EQ(of_two({1.0, 0.0}, {1.0, 0.45}, facing, aslant, 1).surfels().size(), 2U);
+  EXPECT_EQ(of_two({1.0, 0.0}, {1.0, 0.45}, facing, Vector2d::Zero(), 1).surfels().size(), 2U);
+}
+
 TEST(LocalMap, KeepsNothingSparse) {
   LocalMap map;
   PlanarScan scan = row_of({{1.0, 0.0}}, Vector2d::Zero());

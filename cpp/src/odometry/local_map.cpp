@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -22,6 +23,12 @@ constexpr double kSameSide = 0.5;
 constexpr double kSameLine = 0.8;
 // A line is a mean over this radius, in m, where weights fall to zero.
 constexpr double kLineRadius = 0.25;
+// Points of one wall further apart, in m, are bridged by surfels at most so far apart; over so many
+// beams and so much of a way at most, where it is that steep at most to both normals.
+constexpr double kBridge = 0.2;
+constexpr double kLongestBridge = 0.5;
+constexpr double kBridgeSlope = 0.2;
+constexpr int kNeighborBeams = 2;
 // m; a pair is kept for so much at most, as looking further costs.
 constexpr double kMostSlack = 0.02;
 // In that mean one surfel counts as so many points at most.
@@ -144,38 +151,74 @@ std::int32_t LocalMap::mergeable(const Vector2d& p, const Vector2d& normal) cons
   return found;
 }
 
+void LocalMap::add(const Surfel& surfel) {
+  surfels_.push_back(surfel);
+  entries_.push_back({.p = surfel.p, .normal = surfel.normal, .next = -1});
+  const auto k = static_cast<std::int32_t>(surfels_.size()) - 1;
+  enlist(k);
+  changed_.push_back(k);
+}
+
+void LocalMap::merge(std::int32_t known, const Vector2d& p, const Vector2d& normal, double clock) {
+  Surfel& surfel = surfels_[static_cast<std::size_t>(known)];
+  const double weight = std::min(surfel.weight, kMostPoints);
+  move(known, (surfel.p * weight + p) / (weight + 1.0));
+  if (surfel.is_surface()) {
+    surfel.normal = (surfel.normal * weight + normal).normalized();
+  }
+  surfel.weight = weight + 1.0;
+  surfel.seen = clock;
+  entries_[static_cast<std::size_t>(known)].normal = surfel.normal;
+  changed_.push_back(known);
+}
+
+// Where beams fall far apart on one wall, what is between them is wall too.
+void LocalMap::bridge(const Surfel& a, const Surfel& b) {
+  const Vector2d way = b.p - a.p;
+  const double length = way.norm();
+  if (length <= kBridge || length > kLongestBridge || !a.is_surface() || !b.is_surface() ||
+      a.normal.dot(b.normal) < kSameLine ||
+      std::max(std::abs(way.dot(a.normal)), std::abs(way.dot(b.normal))) > kBridgeSlope * length) {
+    return;
+  }
+  const int pieces = static_cast<int>(std::ceil(length / kBridge));
+  for (int k = 1; k < pieces; ++k) {
+    const double share = static_cast<double>(k) / pieces;
+    Surfel between = a;
+    between.p = between.line_p = a.p + share * way;
+    between.normal = between.line_normal =
+        ((1.0 - share) * a.normal + share * b.normal).normalized();
+    between.weight = 1.0 / pieces;
+    if (mergeable(between.p, between.normal) < 0) {
+      add(between);
+    }
+  }
+}
+
 void LocalMap::insert(const PlanarScan& scan, const Pose2& pose, double clock) {
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(pose.z()).toRotationMatrix();
   const bool is_new = surfels_.empty();
+  Surfel last{};
+  int last_beam = std::numeric_limits<int>::min() / 2;
   for (const ScanPoint& point : scan) {
     if (point.surroundings == Surroundings::kSparse) {
       continue;
     }
     const Vector2d p = R * point.p + pose.head<2>();
     const Vector2d normal = R * point.normal;
+    const Surfel own{
+        .p = p, .normal = normal, .weight = 1.0, .seen = clock, .line_p = p, .line_normal = normal};
     const std::int32_t known = mergeable(p, normal);
     if (known < 0) {
-      surfels_.push_back({.p = p,
-                          .normal = normal,
-                          .weight = 1.0,
-                          .seen = clock,
-                          .line_p = p,
-                          .line_normal = normal});
-      entries_.push_back({.p = p, .normal = normal, .next = -1});
-      enlist(static_cast<std::int32_t>(surfels_.size()) - 1);
-      changed_.push_back(static_cast<std::int32_t>(surfels_.size()) - 1);
-      continue;
+      add(own);
+    } else {
+      merge(known, p, normal, clock);
     }
-    Surfel& surfel = surfels_[static_cast<std::size_t>(known)];
-    const double weight = std::min(surfel.weight, kMostPoints);
-    move(known, (surfel.p * weight + p) / (weight + 1.0));
-    if (surfel.is_surface()) {
-      surfel.normal = (surfel.normal * weight + normal).normalized();
+    if (point.beam - last_beam <= kNeighborBeams) {
+      bridge(last, own);
     }
-    surfel.weight = weight + 1.0;
-    surfel.seen = clock;
-    entries_[static_cast<std::size_t>(known)].normal = surfel.normal;
-    changed_.push_back(known);
+    last = own;
+    last_beam = point.beam;
   }
   draw_lines(is_new);
 }

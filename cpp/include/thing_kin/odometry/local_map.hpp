@@ -72,6 +72,10 @@ class LocalMap {
   template <typename Visit>
   void visit_near(const Eigen::Vector2d& p, double distance, Visit&& visit) const noexcept;
   std::int32_t mergeable(const Eigen::Vector2d& p, const Eigen::Vector2d& normal) const noexcept;
+  void add(const Surfel& surfel);
+  void merge(std::int32_t known, const Eigen::Vector2d& p, const Eigen::Vector2d& normal,
+             double clock);
+  void bridge(const Surfel& a, const Surfel& b);
   void draw_lines(bool all);
   void draw_line(Surfel& surfel) const noexcept;
 
