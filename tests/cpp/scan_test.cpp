@@ -99,6 +99,36 @@ TEST(Scan, SaysWhatLiesAroundAPoint) {
   }
 }
 
+TEST(Scan, NormalsBesideACornerAreTheWalls) {
+  const Scanner scanner{.n = 361, .range_max = 30.0};
+  const test::ScanRoom room{.walls = {{{1.5, -1.5}, {3, 0}}, {{3, 0}, {1.5, 1.5}}}, .discs = {}};
+  int beside = 0;
+  for (const ScanPoint& point : test::scan_in(room, scanner, Pose2::Zero())) {
+    const double away = (point.p - Vector2d(3.0, 0.0)).norm();
+    if (away > 0.06 && away < 0.4) {  // a beam from the corner, and within a normal's reach
+      ++beside;
+      const Vector2d own = Vector2d(-1.0, point.p.y() > 0.0 ? -1.0 : 1.0) * std::sqrt(0.5);
+      EXPECT_LT((point.normal - own).norm(), 0.1) << point.p.transpose();
+    }
+  }
+  EXPECT_GT(beside, 12);
+}
+
+TEST(Scan, NormalsOfRoundThingsAreRadial) {
+  const Scanner scanner{.n = 1081, .range_max = 30.0};
+  const Vector2d center(2.0, 0.3);
+  const test::ScanRoom room{.walls = {}, .discs = {{center, 0.3}}};
+  int facing = 0;
+  for (const ScanPoint& point : test::scan_in(room, scanner, Pose2::Zero())) {
+    const Vector2d radial = (point.p - center).normalized();
+    if (point.surroundings == Surroundings::kSurface && -radial.dot(point.p.normalized()) > 0.4) {
+      ++facing;
+      EXPECT_GT(point.normal.dot(radial), std::cos(0.2));
+    }
+  }
+  EXPECT_GT(facing, 60);
+}
+
 TEST(Scan, OneBeamAndNoneAreScans) {
   PlanarScan scan;
   read_scan({.n = 1}, std::vector<double>{2.0}, Twist2(1.0, 0.0, 1.0), scan);

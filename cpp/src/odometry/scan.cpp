@@ -27,6 +27,8 @@ constexpr double kGap = 0.12;
 constexpr double kGapSteps = 4.0;
 // A surface is flat to this, in m, root mean square.
 constexpr double kFlatness = 0.05;
+// Of the noise: a line's points are off by no more, root mean square.
+constexpr double kFlatNoise = 1.5;
 // A thing thinner than the beams' distance stands before what is behind it by this, in m.
 constexpr double kForeground = 0.1;
 
@@ -106,6 +108,34 @@ double fit_across(const Sums& first, const Sums& last, Vector2d& across) {
   const Vector2d along = half > 0.0 ? Vector2d(half + root, xy) : Vector2d(xy, root - half);
   across = Vector2d(-along.y(), along.x()).normalized();
   return std::max(0.5 * (xx + yy) - root, 0.0);
+}
+
+// The line of as many neighbors as lie on one: of both sides, of one, of half as many.
+bool fit_line(const std::vector<Sums>& sums, Neighbors near, std::size_t i, double noise,
+              Vector2d& across) {
+  const double flat2 = kFlatNoise * kFlatNoise * noise * noise;
+  const auto variance = [&](std::size_t first, std::size_t last, Vector2d& out) {
+    return last - first < 2 ? 1e9 : fit_across(sums[first], sums[last + 1], out);
+  };
+  for (;;) {
+    const double both = variance(near.first, near.last, across);
+    if (both <= flat2) {
+      return true;
+    }
+    Vector2d left;
+    Vector2d right;
+    const double before = variance(near.first, std::min(i + 1, near.last), left);
+    const double after = variance(std::max(i, near.first + 1) - 1, near.last, right);
+    if (std::min(before, after) <= flat2) {
+      across = before < after ? left : right;
+      return true;
+    }
+    const Neighbors half{.first = i - (i - near.first) / 2, .last = i + (near.last - i) / 2};
+    if (half.last - half.first < 2) {
+      return both <= kFlatness * kFlatness;
+    }
+    near = half;
+  }
 }
 
 // Both sides are further away: the beams of this thing fell on nothing else.
@@ -219,18 +249,17 @@ void read_scan(const Scanner& scanner, std::span<const double> ranges, const Sca
   const double step = std::abs(scanner.increment());
   for (std::size_t i = 0; i < out.size(); ++i) {
     const Neighbors near = neighbors_of(out, ranges, i, step, scanner.noise);
-    const std::size_t count = near.last - near.first + 1;
     ScanPoint& point = out[i];
     Vector2d across = Vector2d::Zero();
-    if (count < 3) {
+    if (near.last - near.first < 2) {
       point.surroundings =
           stands_alone(out, ranges, near) ? Surroundings::kCorner : Surroundings::kSparse;
-    } else if (fit_across(sums[near.first], sums[near.last + 1], across) > kFlatness * kFlatness) {
-      point.surroundings = Surroundings::kCorner;
-      across.setZero();
-    } else {
+    } else if (fit_line(sums, near, i, scanner.noise, across)) {
       point.surroundings = Surroundings::kSurface;
       across *= across.dot(point.normal) > 0.0 ? -1.0 : 1.0;
+    } else {
+      point.surroundings = Surroundings::kCorner;
+      across.setZero();
     }
     point.normal = across;
   }
