@@ -359,7 +359,7 @@ class LaserOdometry:
     >>> bool(np.allclose(lidar.poses[-1], [0.2, 0.0, 0.0], atol=5e-3))
     True
     """
-    def __init__(self, scanner: Scanner, *, keyframe_distance: typing.SupportsFloat | typing.SupportsIndex = 0.15, keyframe_angle: typing.SupportsFloat | typing.SupportsIndex = 0.3, memory: typing.SupportsFloat | typing.SupportsIndex = 30.0, radius: typing.SupportsFloat | typing.SupportsIndex = 30.0, still_distance: typing.SupportsFloat | typing.SupportsIndex = 0.005, still_angle: typing.SupportsFloat | typing.SupportsIndex = 0.005, lost_limit: typing.SupportsInt | typing.SupportsIndex = 10, fitness_min: typing.SupportsFloat | typing.SupportsIndex = 0.35, search_below: typing.SupportsFloat | typing.SupportsIndex = 0.75, degenerate_share: typing.SupportsFloat | typing.SupportsIndex = 0.01, max_iterations: typing.SupportsInt | typing.SupportsIndex = 30, max_points: typing.SupportsInt | typing.SupportsIndex = 400) -> None:
+    def __init__(self, scanner: Scanner, *, keyframe_distance: typing.SupportsFloat | typing.SupportsIndex = 0.15, keyframe_angle: typing.SupportsFloat | typing.SupportsIndex = 0.3, memory: typing.SupportsFloat | typing.SupportsIndex = 30.0, radius: typing.SupportsFloat | typing.SupportsIndex = 30.0, still_distance: typing.SupportsFloat | typing.SupportsIndex = 0.005, still_angle: typing.SupportsFloat | typing.SupportsIndex = 0.005, lost_limit: typing.SupportsInt | typing.SupportsIndex = 10, fitness_min: typing.SupportsFloat | typing.SupportsIndex = 0.35, search_below: typing.SupportsFloat | typing.SupportsIndex = 0.75, degenerate_share: typing.SupportsFloat | typing.SupportsIndex = 0.005, max_iterations: typing.SupportsInt | typing.SupportsIndex = 30, max_points: typing.SupportsInt | typing.SupportsIndex = 1200) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -427,7 +427,7 @@ class LaserOdometry:
         """
         The scanner.
         """
-def match(scanner: Scanner, ranges_a: numpy.typing.ArrayLike, ranges_b: numpy.typing.ArrayLike, guess: numpy.typing.ArrayLike = (0, 0, 0), *, guess_covariance: numpy.typing.ArrayLike | None = None, fitness_min: typing.SupportsFloat | typing.SupportsIndex = 0.35, search_below: typing.SupportsFloat | typing.SupportsIndex = 0.75, degenerate_share: typing.SupportsFloat | typing.SupportsIndex = 0.01, max_iterations: typing.SupportsInt | typing.SupportsIndex = 30, max_points: typing.SupportsInt | typing.SupportsIndex = 400) -> ScanMatch:
+def match(scanner: Scanner, ranges_a: numpy.typing.ArrayLike, ranges_b: numpy.typing.ArrayLike, guess: numpy.typing.ArrayLike = (0, 0, 0), *, guess_covariance: numpy.typing.ArrayLike | None = None, fitness_min: typing.SupportsFloat | typing.SupportsIndex = 0.35, search_below: typing.SupportsFloat | typing.SupportsIndex = 0.75, degenerate_share: typing.SupportsFloat | typing.SupportsIndex = 0.005, max_iterations: typing.SupportsInt | typing.SupportsIndex = 30, max_points: typing.SupportsInt | typing.SupportsIndex = 1200) -> ScanMatch:
     """
     The motion between two scans: where the robot of the second was, seen from the first's.
     

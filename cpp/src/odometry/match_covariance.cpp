@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
 #include "thing_kin/linalg/spd.hpp"
 
@@ -29,6 +30,8 @@ constexpr double kOtherFit = 7.815;
 // Where people walk the best fit of two is the wrong one in half of the cases if both are equal; if
 // the other's merit is so much less, in hardly any. In worlds that stand still it hardly ever is.
 constexpr double kRivalMerit = 0.12;
+// What a covariance of no rank lacks.
+constexpr double kTiny = 1e-12;
 
 // What a row of neighboring points asks for together: an error of that thing, which does not
 // average out.
@@ -41,6 +44,17 @@ struct Cluster {
     return all * (all - kLeftOut * A).ldlt().solve(force);
   }
 };
+
+// In each direction the larger of two covariances, by the first one's measure.
+Matrix3d larger(const Matrix3d& a, const Matrix3d& b) {
+  const Eigen::LLT<Matrix3d> root(a + Matrix3d::Identity() * (kTiny * a.trace() + kTiny));
+  const Matrix3d L = root.matrixL();
+  const Matrix3d half = root.matrixL().solve(b);
+  const Matrix3d ratio = root.matrixL().solve(half.transpose());
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(ratio);
+  const Matrix3d axes = L * eigen.eigenvectors();
+  return axes * eigen.eigenvalues().cwiseMax(1.0).asDiagonal() * axes.transpose();
+}
 
 }  // namespace
 
@@ -80,7 +94,7 @@ MatchSpread spread_of(const LocalMap& map, const PlanarScan& scan, const Pose2& 
   });
   end_cluster();
   const double mean_square = normal.weighted_squares / std::max(normal.weight, 1e-9);
-  spread.B += of_noise * std::max(noise * noise, mean_square);
+  spread.B = larger(of_noise * std::max(noise * noise, mean_square), spread.B);
   return spread;
 }
 

@@ -21,9 +21,9 @@ struct MatchSpread {
 };
 
 /// The scan's noise and, through the surfels, the map's, carried to the equations at a fit's pose;
-/// larger where residuals are larger than noise explains, and where the fit hangs on single things
-/// (a covariance robust to clusters by leaving each out: Bell and McCaffrey 2002). `hits` is
-/// memory.
+/// or, where that is more, what residuals say: whether they are larger than noise explains, and how
+/// much the fit hangs on single things (robust to clusters by leaving each out: Bell and McCaffrey
+/// 2002). `hits` is memory.
 MatchSpread spread_of(const LocalMap& map, const PlanarScan& scan, const Pose2& pose,
                       const PointToLine& normal, double noise, std::vector<Kept>& kept,
                       std::vector<int>& hits);
