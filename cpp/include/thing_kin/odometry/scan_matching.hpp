@@ -19,9 +19,9 @@ enum class MatchStatus : std::uint8_t {
 };
 
 struct MatchOptions {
-  double fitness_min = 0.35;       ///< below it a match is a poor fit
-  double search_below = 0.75;      ///< below this fitness the correlative search looks elsewhere
-  double degenerate_share = 0.005;///< of the points: less that tells a direction does not count
+  double fitness_min = 0.35;        ///< below it a match is a poor fit
+  double search_below = 0.75;       ///< below this fitness the correlative search looks elsewhere
+  double degenerate_share = 0.005;  ///< of the points: less that tells a direction does not count
   int max_iterations = 30;
   int max_points = 1200;  ///< of a scan; more are thinned evenly
 };
