@@ -60,9 +60,13 @@ TEST(LocalMap, BridgesNeighborsOnOneWall) {
 
   const Vector2d aslant(-0.7, 0.7);
   EXPECT_EQ(of_two({1.0, 0.0}, {1.0, 0.45}, facing, facing, 3).surfels().size(), 2U);  // far beams
-  EXPECT_EQ(of_two({1.0, 0.0}, {1.0, 0.55}, facing, facing, 1).surfels().size(), 2U);  // a gap
+  EXPECT_EQ(of_two({1.0, 0.0}, {1.0, 1.05}, facing, facing, 1).surfels().size(), 2U);  // a gap
   EXPECT_EQ(of_two({1.0, 0.0}, {1.0, 0.15}, facing, facing, 1).surfels().size(), 2U);  // no need
   EXPECT_EQ(of_two({1.0, 0.0}, {1.2, 0.4}, facing, facing, 1).surfels().size(), 2U);   // a step
+  const Vector2d below(0.0, -1.0);
+  EXPECT_EQ(of_two({0.3, 0.5}, {0.75, 0.5}, below, below, 1).surfels().size(), 4U);
+  EXPECT_EQ(of_two({3.0, 0.5}, {3.45, 0.5}, below, below, 1).surfels().size(),
+            2U);  // may be a door
   EXPECT_EQ(of_two({1.0, 0.0}, {1.0, 0.45}, facing, aslant, 1).surfels().size(), 2U);
   EXPECT_EQ(of_two({1.0, 0.0}, {1.0, 0.45}, facing, Vector2d::Zero(), 1).surfels().size(), 2U);
 }

@@ -24,10 +24,11 @@ constexpr double kSameLine = 0.8;
 // A line is a mean over this radius, in m, where weights fall to zero.
 constexpr double kLineRadius = 0.25;
 // Points of one wall further apart, in m, are bridged by surfels at most so far apart; over so many
-// beams and so much of a way at most, where it is that steep at most to both normals.
+// beams and so much of a way at most. Sines and cosines: of the way to both normals, to the beam.
 constexpr double kBridge = 0.2;
-constexpr double kLongestBridge = 0.5;
+constexpr double kLongestBridge = 1.0;
 constexpr double kBridgeSlope = 0.2;
+constexpr double kBridgeGraze = 0.87;
 constexpr int kNeighborBeams = 2;
 // m; a pair is kept for so much at most, as looking further costs.
 constexpr double kMostSlack = 0.02;
@@ -172,13 +173,18 @@ void LocalMap::merge(std::int32_t known, const Vector2d& p, const Vector2d& norm
   changed_.push_back(known);
 }
 
-// Where beams fall far apart on one wall, what is between them is wall too.
-void LocalMap::bridge(const Surfel& a, const Surfel& b) {
+// Where beams fall far apart on one wall, what is between them is wall too; but not where they
+// graze it, as they would miss an open door there.
+void LocalMap::bridge(const Surfel& a, const Surfel& b, const Vector2d& seen_from) {
   const Vector2d way = b.p - a.p;
   const double length = way.norm();
   if (length <= kBridge || length > kLongestBridge || !a.is_surface() || !b.is_surface() ||
       a.normal.dot(b.normal) < kSameLine ||
       std::max(std::abs(way.dot(a.normal)), std::abs(way.dot(b.normal))) > kBridgeSlope * length) {
+    return;
+  }
+  const Vector2d beam = (b.p - seen_from).normalized();
+  if (std::abs(way.dot(beam)) > kBridgeGraze * length) {
     return;
   }
   const int pieces = static_cast<int>(std::ceil(length / kBridge));
@@ -215,7 +221,7 @@ void LocalMap::insert(const PlanarScan& scan, const Pose2& pose, double clock) {
       merge(known, p, normal, clock);
     }
     if (point.beam - last_beam <= kNeighborBeams) {
-      bridge(last, own);
+      bridge(last, own, pose.head<2>());
     }
     last = own;
     last_beam = point.beam;

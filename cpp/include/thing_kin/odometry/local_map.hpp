@@ -75,7 +75,7 @@ class LocalMap {
   void add(const Surfel& surfel);
   void merge(std::int32_t known, const Eigen::Vector2d& p, const Eigen::Vector2d& normal,
              double clock);
-  void bridge(const Surfel& a, const Surfel& b);
+  void bridge(const Surfel& a, const Surfel& b, const Eigen::Vector2d& seen_from);
   void draw_lines(bool all);
   void draw_line(Surfel& surfel) const noexcept;
 
