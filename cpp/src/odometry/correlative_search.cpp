@@ -110,7 +110,9 @@ class LikelihoodGrid {
       std::uint8_t* __restrict row = out + y * side_;
       const int inside = side_ - step;
       for (int x = 0; x < inside; ++x) {
-        row[x] = std::max(std::max(own[x], own[x + step]), std::max(ahead[x], ahead[x + step]));
+        const std::uint8_t here = std::max(own[x], own[x + step]);
+        const std::uint8_t above = std::max(ahead[x], ahead[x + step]);
+        row[x] = std::max(here, above);
       }
       for (int x = std::max(inside, 0); x < side_; ++x) {
         row[x] = std::max(own[x], ahead[x]);
@@ -166,10 +168,8 @@ std::vector<SearchCandidate> correlative_search(const LocalMap& map, const Plana
   if (points.empty() || map.surfels().empty()) {
     return found;
   }
-  double farthest = 0.0;
-  for (const Vector2d& p : points) {
-    farthest = std::max(farthest, p.norm());
-  }
+  const double farthest =
+      std::ranges::max(points, {}, [](const Vector2d& p) { return p.squaredNorm(); }).norm();
   const Pose2& center = window.center;
   // The coarsest cells reach 0.75 m beyond a move.
   thread_local LikelihoodGrid::Memory memory;

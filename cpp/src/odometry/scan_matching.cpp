@@ -103,7 +103,6 @@ class Matcher {
     return fit;
   }
 
- private:
   const LocalMap& map_;
   const PlanarScan& scan_;
   const MatchGuess& guess_;
@@ -144,6 +143,13 @@ bool thin(const PlanarScan& scan, int most, PlanarScan& some) {
     some.push_back(scan[i]);
   }
   return true;
+}
+
+SearchWindow window_around(const MatchGuess& guess) {
+  const Vector3d sd = guess.covariance.diagonal().cwiseSqrt();
+  return {.center = guess.pose,
+          .translation = std::clamp(3.0 * sd.head<2>().maxCoeff(), 0.6, 2.0),
+          .rotation = std::min(6.0 * sd.z() + 0.3, std::numbers::pi)};
 }
 
 }  // namespace
@@ -191,11 +197,8 @@ ScanMatch match_scan(const LocalMap& map, const PlanarScan& scan, const MatchGue
   }
   const bool search = matcher.fitness(best.normal) < options.search_below;
   if (search) {
-    const Vector3d sd = guess.covariance.diagonal().cwiseSqrt();
-    const SearchWindow window{.center = guess.pose,
-                              .translation = std::clamp(3.0 * sd.head<2>().maxCoeff(), 0.6, 2.0),
-                              .rotation = std::min(6.0 * sd.z() + 0.3, std::numbers::pi)};
-    for (const SearchCandidate& candidate : correlative_search(map, scan, window, kCandidates)) {
+    for (const SearchCandidate& candidate :
+         correlative_search(map, scan, window_around(guess), kCandidates)) {
       consider(candidate.pose, kBetter);
     }
   }
