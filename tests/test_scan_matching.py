@@ -234,6 +234,18 @@ def test_two_fits_that_are_as_good_are_ambiguous():
     assert np.sqrt(alone.covariance[0, 0]) < 0.01
 
 
+def test_fitness_is_of_all_points_wherever_the_iteration_ends():
+    two = pair(FAMILIES["room"](RNG(3)), STANDING, RNG(3))
+    guess = two.truth + (0.05, 0.05, 0.02)
+    for most in (1, 2, 3, 30):
+        match = odometry.match(
+            scanner_of(STANDING), two.a, two.b, guess=guess, max_iterations=most, search_below=0.0
+        )
+        assert match.status == ("converged" if most == 30 else "iteration_limit")
+        assert match.fitness > 0.9
+        assert match.inliers > 0.9
+
+
 def test_covariances_are_covariances():
     for family in FAMILIES:
         for covariance in matches(family, NARROW, 5, seed=4).covariances:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -115,7 +116,8 @@ bool fit_line(const std::vector<Sums>& sums, Neighbors near, std::size_t i, doub
               Vector2d& across) {
   const double flat2 = kFlatNoise * kFlatNoise * noise * noise;
   const auto variance = [&](std::size_t first, std::size_t last, Vector2d& out) {
-    return last - first < 2 ? 1e9 : fit_across(sums[first], sums[last + 1], out);
+    return last - first < 2 ? std::numeric_limits<double>::infinity()
+                            : fit_across(sums[first], sums[last + 1], out);
   };
   for (;;) {
     const double both = variance(near.first, near.last, across);

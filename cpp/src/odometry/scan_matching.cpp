@@ -76,9 +76,10 @@ class Matcher {
     Fit fit{.pose = start, .normal = {}};
     for (;;) {
       const bool last = distance <= kLastDistance;
-      const std::size_t stride = last ? 1 : std::max<std::size_t>(scan_.size() / kFewPoints, 1);
-      fit.normal = point_to_line(map_, scan_, fit.pose, distance, stride, kept_);
-      if (fit.converged || fit.iterations == options_.max_iterations) {
+      const bool ends = fit.converged || fit.iterations == options_.max_iterations;
+      const std::size_t few = std::max<std::size_t>(scan_.size() / kFewPoints, 1);
+      fit.normal = point_to_line(map_, scan_, fit.pose, distance, last || ends ? 1 : few, kept_);
+      if (ends) {
         break;
       }
       PointToLine pulled = fit.normal;
