@@ -239,6 +239,15 @@ def test_steps_that_depend_on_each_other_are_no_reason_for_doubt() -> None:
     assert est.consistency_report(drawn[0][0], 6).independent == 40
 
 
+def test_errors_without_a_finite_square_are_no_fault_of_the_covariance() -> None:
+    for name in ("truth", "x"):
+        known = {"truth": X0, "x": X0, "P": P0} | {name: np.full(4, 8e153)}
+        with pytest.raises(ValueError, match=f"^{name}: got"):
+            est.nees(**known)
+    with pytest.raises(ValueError, match=r"^P: got a matrix without an inverse"):
+        est.nees(X0, X0, np.zeros((4, 4)))
+
+
 @pytest.mark.parametrize("bad", [np.nan, np.inf])
 def test_bad_numbers_are_refused_and_change_nothing(bad: float) -> None:
     filter = est.KalmanFilter(X0, P0)

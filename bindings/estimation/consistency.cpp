@@ -53,6 +53,8 @@ FloatOrArray nees(const ArrayLike& truth, const ArrayLike& x, const ArrayLike& P
                    });
   for (py::ssize_t i = 0; i < out.size(); ++i) {
     if (!std::isfinite(out.data()[i])) {
+      check_magnitude(batches[0], "truth");
+      check_magnitude(batches[1], "x");
       throw InvalidArgument("P", "a matrix without an inverse, in row " + std::to_string(i),
                             "positive definite covariances");
     }
