@@ -236,7 +236,7 @@ def test_two_fits_that_are_as_good_are_ambiguous():
 
 def test_fitness_is_of_all_points_wherever_the_iteration_ends():
     two = pair(FAMILIES["room"](RNG(3)), STANDING, RNG(3))
-    guess = two.truth + (0.05, 0.05, 0.02)
+    guess = two.truth + np.array([0.05, 0.05, 0.02])
     for most in (1, 2, 3, 30):
         match = odometry.match(
             scanner_of(STANDING), two.a, two.b, guess=guess, max_iterations=most, search_below=0.0
